@@ -1,0 +1,1 @@
+//! OpenCASCADE operations that clinothem needs, as plain Rust types.

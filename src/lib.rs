@@ -1,0 +1,6 @@
+//! Surface-based geological reservoir modelling without a grid.
+#![forbid(unsafe_code)]
+
+pub mod features;
+pub mod model;
+pub mod nurbs;
