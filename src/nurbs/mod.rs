@@ -1,1 +1,29 @@
-//! To be written.
+//! Rational B-spline (NURBS) curves and surfaces: the geometry on which everything else stands.
+//!
+//! Notation follows Piegl & Tiller, *The NURBS Book*, 2nd edition, 1997 (**[PT97]**; algorithm numbers are
+//! theirs) and Jacquemyn, Jackson & Hampson, *Surface-Based Geological Reservoir Modelling Using Grid-Free NURBS
+//! Curves and Surfaces*, Math. Geosci. 51, 2019 (**[J19]**; equation numbers are theirs).
+//!
+//! - [`KnotVector`], [`Curve`] and [`Surface`] can only be made valid, so holding one proves that it is.
+//! - Every operation leaves its operand as it was and returns a new one.
+//! - A parameter outside a domain is moved to the domain's nearest end before evaluation.
+//! - [`interpolate`] passes curves through points; [`enclosure`] answers whether a closed shell holds a point.
+
+mod banded;
+mod basis;
+mod curve;
+mod derive;
+mod elevate;
+pub mod interpolate;
+mod knots;
+mod refine;
+mod reverse;
+mod ruled;
+mod split;
+mod surface;
+
+pub use curve::{Curve, CurveError};
+pub use elevate::ElevateError;
+pub use knots::{Basis, KnotError, KnotVector, MAX_DEGREE};
+pub use refine::RefineError;
+pub use surface::{Surface, SurfaceError};
