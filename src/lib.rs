@@ -2,5 +2,4 @@
 #![forbid(unsafe_code)]
 
 pub mod features;
-pub mod model;
 pub mod nurbs;

@@ -1,1 +1,11 @@
-//! To be written.
+//! Geological features: templates carried along trajectories become surfaces with roles.
+//!
+//! This layer knows numbers, not model files: every parameter is sampled already. It knows no rules
+//! either: what removes what is decided in [`crate::model`].
+
+pub mod body;
+pub mod channel;
+pub mod extrusion;
+pub mod profile;
+pub mod section;
+pub mod trajectory;

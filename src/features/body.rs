@@ -1,0 +1,175 @@
+//! Bodies: closed shells made of named sheets.
+
+use glam::DVec3;
+
+use crate::nurbs::{Curve, KnotError, KnotVector, Surface, SurfaceError};
+
+/// What a sheet of a body is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// The erosive base.
+    Base,
+    /// The top, between the rims.
+    Top,
+    /// The vertical end at the trajectory's start.
+    Start,
+    /// The vertical end at the trajectory's end.
+    End,
+}
+
+impl Role {
+    /// The role's name in files and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Base => "base",
+            Self::Top => "top",
+            Self::Start => "start",
+            Self::End => "end",
+        }
+    }
+}
+
+/// A trough: a base with u across and v along, closed by a top ruled between its two rims.
+///
+/// The rims (u = first and last) are the *same* control points in both sheets, so that base and top
+/// share their edges exactly ([J19] Fig. 4: CP2 of the top is CP7 of the base). The two ends are
+/// vertical and flat: sections are.
+#[derive(Clone, Debug)]
+pub struct Trough {
+    base: Surface,
+    top: Surface,
+    sections: Vec<f64>,
+}
+
+/// Why a base cannot be closed or raised.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TroughError {
+    /// A sheet is no surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The raised base has no knot vector.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+}
+
+/// Of a raised bank: its height, in steps from the rim's neighbour to the rim.
+const RISE: f64 = 0.5;
+/// Of a raised bank: the farthest it may lean in, as a fraction of the distance between the rims.
+const LEAN: f64 = 0.2;
+
+impl Trough {
+    /// Closes a base by the ruled top between its rims (degree 1 across). `sections` are the v at
+    /// which the base is flat and upright, its two ends included.
+    pub fn new(base: Surface, sections: Vec<f64>) -> Result<Self, SurfaceError> {
+        let (first, last) = base.knots_u().domain();
+        let top = Surface::ruled(&base.isocurve_u(first), &base.isocurve_u(last))?;
+        Ok(Self {
+            base,
+            top,
+            sections,
+        })
+    }
+
+    /// The base: u across from the left rim to the right one, v along.
+    pub fn base(&self) -> &Surface {
+        &self.base
+    }
+
+    /// The top: u across (degree 1) from the left rim to the right one, v along.
+    pub fn top(&self) -> &Surface {
+        &self.top
+    }
+
+    /// The v of the sections, where the base is flat and upright.
+    pub fn sections(&self) -> &[f64] {
+        &self.sections
+    }
+
+    /// The rims, left and right, with v as parameter.
+    pub fn rims(&self) -> [Curve; 2] {
+        let (first, last) = self.base.knots_u().domain();
+        [self.base.isocurve_u(first), self.base.isocurve_u(last)]
+    }
+
+    /// The elevation of the top, if it is level to within a tolerance (m).
+    pub fn level_top(&self, tolerance: f64) -> Option<f64> {
+        let net = self.top.net();
+        let (low, high) = net
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+                (low.min(p.z), high.max(p.z))
+            });
+        (high - low <= tolerance).then(|| f64::midpoint(low, high))
+    }
+
+    /// All sheets of the closed shell.
+    pub fn sheets(&self) -> Result<Vec<(Role, Surface)>, SurfaceError> {
+        let (first, last) = self.base.knots_v().domain();
+        let end = |v: f64| Surface::ruled(&self.base.isocurve_v(v), &self.top.isocurve_v(v));
+        Ok(vec![
+            (Role::Base, self.base.clone()),
+            (Role::Top, self.top.clone()),
+            (Role::Start, end(first)?),
+            (Role::End, end(last)?),
+        ])
+    }
+
+    /// The same trough with its banks continued upwards in their own direction, above the old rims.
+    ///
+    /// Below the old top nothing changes: the old base is a part of the new one (knots of multiplicity
+    /// p at the old rims). Whatever stops the trough at its old top then meets the banks at an angle,
+    /// instead of touching them along the rims, which no kernel does reliably.
+    pub fn raised(&self) -> Result<Self, TroughError> {
+        let p = self.base.knots_u().degree();
+        let (nu, nv) = (self.base.knots_u().count(), self.base.knots_v().count());
+        let knots = self.base.knots_u().as_slice();
+        let rise = self.rise();
+        // C1 across the old rims: the speed of a clamped end is p/(knot span) times the first leg.
+        let (before, after) = (
+            rise * (knots[p + 1] - knots[p]),
+            rise * (knots[nu] - knots[nu - 1]),
+        );
+        let scale = 1.0 / p as f64;
+        let mut raised = vec![knots[p] - before * scale; p + 1];
+        raised.extend(std::iter::repeat_n(knots[p], p));
+        raised.extend(&knots[p + 1..nu]);
+        raised.extend(std::iter::repeat_n(knots[nu], p));
+        raised.extend(std::iter::repeat_n(knots[nu] + after * scale, p + 1));
+        let net = self.base.net();
+        let row = |i: usize| &net[i * nv..(i + 1) * nv];
+        let beyond = |rim: usize, neighbour: usize, step: usize| {
+            let part = rise * step as f64 * scale;
+            let leg = move |(rim, inner): (&DVec3, &DVec3)| *rim + (*rim - *inner) * part;
+            row(rim)
+                .iter()
+                .zip(row(neighbour))
+                .map(leg)
+                .collect::<Vec<_>>()
+        };
+        let mut points: Vec<DVec3> = (1..=p).rev().flat_map(|step| beyond(0, 1, step)).collect();
+        points.extend_from_slice(net);
+        points.extend((1..=p).flat_map(|step| beyond(nu - 1, nu - 2, step)));
+        let across = KnotVector::new(p, raised)?;
+        let base = Surface::new(across, self.base.knots_v().clone(), points)?;
+        Ok(Self::new(base, self.sections.clone())?)
+    }
+
+    /// How far banks are raised: less where they lean in.
+    fn rise(&self) -> f64 {
+        let (nu, nv) = (self.base.knots_u().count(), self.base.knots_v().count());
+        let at = |i: usize, j: usize| self.base.net()[i * nv + j];
+        (0..nv).fold(RISE, |rise, j| {
+            let across = at(nu - 1, j) - at(0, j);
+            let width = across.length();
+            let lean = |rim: usize, inner: usize, inward: f64| {
+                (at(rim, j) - at(inner, j)).dot(across) / width * inward
+            };
+            let most = lean(0, 1, 1.0).max(lean(nu - 1, nu - 2, -1.0));
+            if most > 0.0 {
+                rise.min(LEAN * width / most)
+            } else {
+                rise
+            }
+        })
+    }
+}

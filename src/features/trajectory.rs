@@ -1,0 +1,505 @@
+//! Trajectories: the plan-view lines along which templates are carried ([J19] §2.4.1, Fig. 5).
+//!
+//! Arc length `s` in metres, direction θ in radians counterclockwise from east, curvature κ = dθ/ds
+//! (positive turns left). Every kind is kept the same way: samples exact in place, direction and
+//! curvature, dense enough that cubic Hermite pieces between them miss the line by less than
+//! 10⁻⁶ of the radius of curvature.
+//!
+//! The sine-generated curve is Langbein & Leopold's (1966): θ(s) = ω sin(2πs/M). With J₀ the Bessel
+//! and H₀ the Struve function its wavelength is λ = M·J₀(ω) and its amplitude A = M·H₀(ω)/4, so that
+//! A/λ = H₀(ω)/(4 J₀(ω)) gives ω.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec2;
+
+use crate::nurbs::interpolate::{self, Parametrization};
+
+/// Largest sensible ω: meanders touch near 125°.
+const LARGEST_OMEGA: f64 = 125.0 / 180.0 * PI;
+/// Samples in one wavelength of a sine-generated curve.
+const SAMPLES_PER_WAVELENGTH: usize = 128;
+/// Samples in one span of an interpolated curve.
+const SAMPLES_PER_SPAN: usize = 32;
+/// Samples of a parametric curve.
+const PARAMETRIC_SAMPLES: usize = 2048;
+/// Most samples of one trajectory: 16 MB. Beyond it the wavelength is too small for the extent.
+const MOST_SAMPLES: f64 = 400_000.0;
+/// Abscissae and weights of 5-point Gauss–Legendre quadrature on 0..1.
+const GAUSS: [(f64, f64); 5] = [
+    (0.046_910_077_030_668_0, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_5, 0.239_314_335_249_683_2),
+    (0.5, 0.284_444_444_444_444_4),
+    (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];
+
+/// One exactly known place on a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Arc length from the start (m).
+    pub s: f64,
+    /// Easting and northing (m).
+    pub point: DVec2,
+    /// Direction θ, continuous along the trajectory (rad).
+    pub direction: f64,
+    /// Curvature κ (1/m), positive to the left.
+    pub curvature: f64,
+}
+
+impl Place {
+    /// Unit vector along the trajectory.
+    pub fn tangent(&self) -> DVec2 {
+        DVec2::from_angle(self.direction)
+    }
+
+    /// Unit vector to the right, looking down the trajectory.
+    pub fn right(&self) -> DVec2 {
+        let t = self.tangent();
+        DVec2::new(t.y, -t.x)
+    }
+}
+
+/// A plan-view line with arc length, direction and curvature.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    places: Vec<Place>,
+}
+
+/// A sine-generated curve's parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SineGenerated {
+    /// Half of the peak-to-peak distance across the belt (m).
+    pub amplitude: f64,
+    /// Length of a meander along the belt (m).
+    pub wavelength: f64,
+    /// Direction of the belt, clockwise from north (rad).
+    pub azimuth: f64,
+    /// A point on the belt's axis (m).
+    pub center: DVec2,
+    /// Phase at that point, as a fraction of a wavelength; 0 is the outermost left-turning point.
+    pub phase: f64,
+    /// Extent along the axis, from and to, measured from the centre (m).
+    pub extent: [f64; 2],
+}
+
+/// Why numbers make no trajectory.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TrajectoryError {
+    /// Too few distinct points, or a length of zero.
+    #[error("the trajectory has no length: give it two different points")]
+    NoLength,
+    /// A number that is not finite.
+    #[error("the trajectory is not finite near {0}: look at its points or expressions")]
+    NotFinite(String),
+    /// Amplitude too large for the wavelength.
+    #[error(
+        "no sine-generated curve has amplitude {amplitude:.1} m and wavelength {wavelength:.1} m: \
+         its meanders would touch; keep amplitude / wavelength below {largest:.3}"
+    )]
+    NoMeander {
+        /// Half of peak to peak (m).
+        amplitude: f64,
+        /// Along the belt (m).
+        wavelength: f64,
+        /// Largest possible ratio.
+        largest: f64,
+    },
+    /// A cusp: the line stops and turns.
+    #[error(
+        "the trajectory stops and turns at parameter {0:.4}: give it a derivative that is never zero"
+    )]
+    Cusp(f64),
+    /// Far too many meanders.
+    #[error(
+        "a wavelength of {wavelength} m makes {count:.0} meanders over {extent:.0} m: \
+         lengthen it, or give the trajectory a `length`"
+    )]
+    TooManyMeanders {
+        /// Along the belt (m).
+        wavelength: f64,
+        /// How many fit.
+        count: f64,
+        /// Extent along the belt (m).
+        extent: f64,
+    },
+    /// The points could not be interpolated.
+    #[error("the trajectory's points cannot be interpolated: {0}")]
+    Interpolation(String),
+}
+
+impl Trajectory {
+    /// The straight line from one point to another.
+    pub fn line(from: DVec2, to: DVec2) -> Result<Self, TrajectoryError> {
+        let along = to - from;
+        let length = along.length();
+        if !length.is_finite() {
+            return Err(TrajectoryError::NotFinite(format!("{from} – {to}")));
+        }
+        if length == 0.0 {
+            return Err(TrajectoryError::NoLength);
+        }
+        let direction = along.to_angle();
+        let place = |s, point| Place {
+            s,
+            point,
+            direction,
+            curvature: 0.0,
+        };
+        Ok(Self {
+            places: vec![place(0.0, from), place(length, to)],
+        })
+    }
+
+    /// The B-spline through points ([J19] Eq. 7–9), of the given degree or less if points are few.
+    pub fn through(
+        points: &[DVec2],
+        degree: usize,
+        parametrization: Parametrization,
+    ) -> Result<Self, TrajectoryError> {
+        if let [from, to] = points {
+            return Self::line(*from, *to);
+        }
+        let lifted: Vec<_> = points.iter().map(|p| p.extend(0.0)).collect();
+        let degree = degree.min(points.len().saturating_sub(1));
+        let curve = interpolate::curve(&lifted, degree, parametrization)
+            .map_err(|error| TrajectoryError::Interpolation(error.to_string()))?;
+        let spans: Vec<f64> = curve.knots().distinct().iter().map(|knot| knot.0).collect();
+        let mut parameters = vec![spans[0]];
+        for span in spans.windows(2) {
+            parameters.extend(
+                (1..=SAMPLES_PER_SPAN)
+                    .map(|i| span[0] + (span[1] - span[0]) * i as f64 / SAMPLES_PER_SPAN as f64),
+            );
+        }
+        Self::from_motion(&parameters, &|t| {
+            let d = curve.derivatives(t, 2);
+            [d[0].truncate(), d[1].truncate(), d[2].truncate()]
+        })
+    }
+
+    /// Any plane curve (x(t), y(t)); derivatives are taken by central differences.
+    pub fn parametric(
+        curve: &dyn Fn(f64) -> DVec2,
+        range: [f64; 2],
+    ) -> Result<Self, TrajectoryError> {
+        let step = (range[1] - range[0]) / PARAMETRIC_SAMPLES as f64;
+        let parameters: Vec<f64> = (0..=PARAMETRIC_SAMPLES)
+            .map(|i| range[0] + step * i as f64)
+            .collect();
+        // Differences over a sample's spacing: fourth order, and far from rounding.
+        let h = step / 2.0;
+        let clamp = |t: f64| {
+            t.clamp(
+                range[0].min(range[1]) + 2.0 * h,
+                range[1].max(range[0]) - 2.0 * h,
+            )
+        };
+        Self::from_motion(&parameters, &|t| {
+            let c = clamp(t);
+            let f = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| curve(c + k * h));
+            let first = (f[0] - f[4] + 8.0 * (f[3] - f[1])) / (12.0 * h);
+            let second = (-f[0] - f[4] + 16.0 * (f[1] + f[3]) - 30.0 * f[2]) / (12.0 * h * h);
+            // At the two ends the derivatives stem from just inside: continue them linearly.
+            [curve(t), first + second * (t - c), second]
+        })
+    }
+
+    /// A sine-generated curve over an extent of its axis.
+    pub fn sine_generated(curve: &SineGenerated) -> Result<Self, TrajectoryError> {
+        let SineGenerated {
+            amplitude,
+            wavelength,
+            azimuth,
+            center,
+            phase,
+            extent,
+        } = *curve;
+        let finite = [
+            amplitude, wavelength, azimuth, center.x, center.y, phase, extent[0], extent[1],
+        ];
+        if finite.iter().any(|value| !value.is_finite()) {
+            return Err(TrajectoryError::NotFinite(format!("{curve:?}")));
+        }
+        let length = extent[1] - extent[0];
+        if !(length > 0.0) {
+            return Err(TrajectoryError::NoLength);
+        }
+        let omega = solve_omega(amplitude, wavelength)?;
+        let count = length / wavelength;
+        if count * SAMPLES_PER_WAVELENGTH as f64 > MOST_SAMPLES {
+            return Err(TrajectoryError::TooManyMeanders {
+                wavelength,
+                count,
+                extent: length,
+            });
+        }
+        let meander = Meander::new(omega, wavelength, amplitude);
+        let axis = azimuth_vector(azimuth);
+        let across = axis.perp();
+        let start = phase + extent[0] / wavelength;
+        let samples = (count * SAMPLES_PER_WAVELENGTH as f64).ceil().max(1.0);
+        let origin = meander.at(phase).point.x;
+        let axis_angle = axis.to_angle();
+        // Both casts are safe: samples is between 1 and MOST_SAMPLES.
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "bounded above"
+        )]
+        let samples = samples as usize;
+        let places = (0..=samples)
+            .map(|i| {
+                let turn = start + count * i as f64 / samples as f64;
+                let local = meander.at(turn);
+                Place {
+                    s: (turn - start) * meander.arc,
+                    point: center + axis * (local.point.x - origin) + across * local.point.y,
+                    direction: axis_angle + local.direction,
+                    curvature: local.curvature,
+                }
+            })
+            .collect();
+        Ok(Self { places })
+    }
+
+    /// From position, velocity and acceleration at increasing parameters.
+    fn from_motion(
+        parameters: &[f64],
+        motion: &dyn Fn(f64) -> [DVec2; 3],
+    ) -> Result<Self, TrajectoryError> {
+        let mut places: Vec<Place> = Vec::with_capacity(parameters.len());
+        let mut s = 0.0;
+        for (i, &t) in parameters.iter().enumerate() {
+            let [point, velocity, acceleration] = motion(t);
+            let speed = velocity.length();
+            if !(point.is_finite() && speed.is_finite() && acceleration.is_finite()) {
+                return Err(TrajectoryError::NotFinite(format!("parameter {t:.4}")));
+            }
+            if i > 0 {
+                let from = parameters[i - 1];
+                s += (t - from)
+                    * GAUSS
+                        .iter()
+                        .map(|(x, w)| w * motion(from + (t - from) * x)[1].length())
+                        .sum::<f64>();
+            }
+            if speed == 0.0 {
+                return Err(TrajectoryError::Cusp(t));
+            }
+            let mut direction = velocity.to_angle();
+            if let Some(last) = places.last() {
+                // Continuous direction: a turn by more than a right angle in one sample is a cusp.
+                direction += TAU * ((last.direction - direction) / TAU).round();
+                if (direction - last.direction).abs() > FRAC_PI_2 {
+                    return Err(TrajectoryError::Cusp(t));
+                }
+            }
+            let curvature = velocity.perp_dot(acceleration) / speed.powi(3);
+            places.push(Place {
+                s,
+                point,
+                direction,
+                curvature,
+            });
+        }
+        if !(s > 0.0 && s.is_finite()) {
+            return Err(TrajectoryError::NoLength);
+        }
+        Ok(Self { places })
+    }
+
+    /// Arc length (m).
+    pub fn length(&self) -> f64 {
+        self.places[self.places.len() - 1].s
+    }
+
+    /// The samples, in order of arc length.
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// Whether it is one straight line.
+    pub fn is_straight(&self) -> bool {
+        self.places.iter().all(|place| place.curvature == 0.0)
+    }
+
+    /// The place at an arc length, clamped to the trajectory.
+    pub fn at(&self, s: f64) -> Place {
+        let s = s.clamp(0.0, self.length());
+        let after = self
+            .places
+            .partition_point(|place| place.s <= s)
+            .clamp(1, self.places.len() - 1);
+        let (a, b) = (&self.places[after - 1], &self.places[after]);
+        let h = b.s - a.s;
+        let x = (s - a.s) / h;
+        let (y, xx) = (1.0 - x, x * x);
+        let point = a.point * (y * y * (1.0 + 2.0 * x))
+            + b.point * (xx * (3.0 - 2.0 * x))
+            + (a.tangent() * (x * y * y) - b.tangent() * (xx * y)) * h;
+        // Direction by the same Hermite pieces: its derivative is the curvature.
+        let direction = a.direction * (y * y * (1.0 + 2.0 * x))
+            + b.direction * (xx * (3.0 - 2.0 * x))
+            + (a.curvature * (x * y * y) - b.curvature * (xx * y)) * h;
+        Place {
+            s,
+            point,
+            direction,
+            curvature: a.curvature * y + b.curvature * x,
+        }
+    }
+
+    /// Arc lengths of the sections: both ends, and wherever the direction has turned by the limit
+    /// since the last one (to and fro counts twice the limit: a gentle meander turns back in time).
+    pub fn stations(&self, angle_limit: f64) -> Vec<f64> {
+        let mut stations = vec![0.0];
+        let mut last = self.places[0].direction;
+        let mut turned = 0.0;
+        for pair in self.places.windows(2) {
+            let (a, b) = (&pair[0], &pair[1]);
+            turned += (b.direction - a.direction).abs();
+            while (b.direction - last).abs() > angle_limit {
+                let next = last + angle_limit.copysign(b.direction - last);
+                let part = ((next - a.direction) / (b.direction - a.direction)).clamp(0.0, 1.0);
+                stations.push(a.s + (b.s - a.s) * part);
+                last = next;
+                turned = (b.direction - last).abs();
+            }
+            if turned > 2.0 * angle_limit {
+                stations.push(b.s);
+                last = b.direction;
+                turned = 0.0;
+            }
+        }
+        let length = self.length();
+        // A last section that is nearly at the end would make a sliver: the end takes its place.
+        let sliver = 1e-3 * length / stations.len() as f64;
+        if stations.len() > 1 && length - stations[stations.len() - 1] < sliver {
+            stations.pop();
+        }
+        stations.push(length);
+        stations
+    }
+
+    /// The sharpest bend: largest curvature to the left and to the right (1/m), both at least 0.
+    pub fn sharpest(&self) -> (f64, f64) {
+        self.places.iter().fold((0.0, 0.0), |(left, right), place| {
+            (place.curvature.max(left), (-place.curvature).max(right))
+        })
+    }
+}
+
+/// Unit vector of an azimuth, clockwise from north (rad).
+pub fn azimuth_vector(azimuth: f64) -> DVec2 {
+    DVec2::new(azimuth.sin(), azimuth.cos())
+}
+
+/// The ω whose sine-generated curve has this amplitude and wavelength.
+pub fn solve_omega(amplitude: f64, wavelength: f64) -> Result<f64, TrajectoryError> {
+    let ratio = amplitude / wavelength;
+    let of = |omega: f64| struve_h0(omega) / (4.0 * bessel_j0(omega));
+    let largest = of(LARGEST_OMEGA);
+    if !(amplitude >= 0.0 && wavelength > 0.0 && ratio <= largest) {
+        return Err(TrajectoryError::NoMeander {
+            amplitude,
+            wavelength,
+            largest,
+        });
+    }
+    // The ratio grows steadily with ω: bisection cannot fail, and 60 halvings reach the last bit.
+    let (mut low, mut high) = (0.0, LARGEST_OMEGA);
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if of(middle) < ratio {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(f64::midpoint(low, high))
+}
+
+/// Bessel function J₀ by its power series: for 0 ≤ x < 3 twenty terms reach rounding.
+pub fn bessel_j0(x: f64) -> f64 {
+    let mut term = 1.0;
+    (1..20).fold(1.0, |sum, k| {
+        let k = f64::from(k);
+        term *= -(x * x) / (4.0 * k * k);
+        sum + term
+    })
+}
+
+/// Struve function H₀ by its power series, for 0 ≤ x < 3.
+pub fn struve_h0(x: f64) -> f64 {
+    let mut term = x;
+    let sum = (1..20).fold(x, |sum, k| {
+        let odd = f64::from(2 * k + 1);
+        term *= -(x * x) / (odd * odd);
+        sum + term
+    });
+    sum * 2.0 / PI
+}
+
+/// One period of a sine-generated curve along the x axis, tabulated.
+struct Meander {
+    omega: f64,
+    /// Arc length M of a wavelength.
+    arc: f64,
+    wavelength: f64,
+    /// Positions at even fractions of the period.
+    table: Vec<DVec2>,
+}
+
+impl Meander {
+    fn new(omega: f64, wavelength: f64, amplitude: f64) -> Self {
+        let arc = wavelength / bessel_j0(omega);
+        let n = SAMPLES_PER_WAVELENGTH;
+        let mut table = Vec::with_capacity(n + 1);
+        let mut point = DVec2::new(0.0, -amplitude);
+        table.push(point);
+        for i in 0..n {
+            point += Self::advance(omega, arc, i as f64 / n as f64, 1.0 / n as f64);
+            table.push(point);
+        }
+        Self {
+            omega,
+            arc,
+            wavelength,
+            table,
+        }
+    }
+
+    /// Displacement over part of a turn, by quadrature of the direction.
+    fn advance(omega: f64, arc: f64, from: f64, part: f64) -> DVec2 {
+        let sum: DVec2 = GAUSS
+            .iter()
+            .map(|(x, w)| DVec2::from_angle(omega * (TAU * (from + part * x)).sin()) * *w)
+            .sum();
+        sum * (part * arc)
+    }
+
+    /// The place after a number of turns (periods), which may be negative.
+    fn at(&self, turns: f64) -> Place {
+        let (whole, part) = (turns.floor(), turns - turns.floor());
+        let n = SAMPLES_PER_WAVELENGTH as f64;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 ≤ part ≤ 1"
+        )]
+        let i = ((part * n) as usize).min(SAMPLES_PER_WAVELENGTH - 1);
+        let from = i as f64 / n;
+        let local = self.table[i] + Self::advance(self.omega, self.arc, from, part - from);
+        Place {
+            s: turns * self.arc,
+            point: local + DVec2::new(whole * self.wavelength, 0.0),
+            direction: self.omega * (TAU * part).sin(),
+            curvature: self.omega * TAU / self.arc * (TAU * part).cos(),
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "trajectory_tests.rs"]
+mod tests;
