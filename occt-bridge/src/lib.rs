@@ -1,1 +1,73 @@
 //! OpenCASCADE operations that clinothem needs, as plain Rust types.
+//!
+//! Lengths are metres, areas square metres, volumes cubic metres; the kernel itself has no unit, and [`write_step_assembly`] declares
+//! the metre. Every operation returns a [`Result`]: OpenCASCADE's exceptions, error alerts and empty results all become a
+//! [`BridgeError`].
+//!
+//! ```
+//! # fn main() -> Result<(), occt_bridge::BridgeError> {
+//! use occt_bridge::{Cancel, PartitionOptions, box_solid, partition, volume};
+//! let block = box_solid([0.0, 0.0, 0.0], [4.0, 4.0, 1.0])?;
+//! let body = box_solid([1.0, -1.0, 0.5], [2.0, 5.0, 2.0])?;
+//! let cut = partition(&[block, body], &PartitionOptions::default(), &Cancel::new(), &|_| ())?;
+//! // The younger body takes what lies inside the block; what is outside the block is dropped.
+//! let owner: Vec<_> = cut.cells().iter().map(|c| if c.inside == [0, 1] { Some(1) } else { c.inside.contains(&0).then_some(0) }).collect();
+//! let solids = cut.merge(&owner)?;
+//! assert_eq!(solids.solids().len(), 2);
+//! let total: f64 = (0..2).map(|i| volume(&solids.shape_of(i)?, 1e-9)).sum::<Result<f64, _>>()?;
+//! assert!((total - 16.0).abs() < 1e-9);
+//! # Ok(())
+//! # }
+//! ```
+
+mod brep;
+mod bytes;
+mod check;
+mod error;
+mod ffi;
+mod measure;
+mod merge;
+mod mesh;
+mod monitor;
+mod partition;
+mod shape;
+mod solids;
+mod step;
+mod topology;
+
+pub use brep::{read_brep, write_brep};
+pub use check::{Defect, defects};
+pub use error::BridgeError;
+pub use measure::{
+    Bounds, Classifier, FaceIntegral, FaceSample, Position, area, bounds, face_integrals,
+    face_samples, volume,
+};
+pub use mesh::{FaceMesh, MeshOptions, triangulate, triangulate_solids};
+pub use monitor::Cancel;
+pub use partition::{
+    Cell, FaceOrigin, Partition, PartitionFace, PartitionOptions, UNUSED_FACES, partition,
+};
+pub use shape::{Shape, ShapeKind, compound, set_threads, version};
+pub use solids::{Solid, SolidFace, Solids};
+pub use step::{
+    ReadPart, StepDocument, StepNode, StepSchema, read_step, write_step_assembly, write_step_shared,
+};
+pub use topology::{
+    Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology, box_solid, faces, solid,
+};
+
+/// Whether an operation may use the kernel's worker threads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Threads {
+    /// On the calling thread.
+    One,
+    /// On all of the kernel's threads, see [`set_threads`]. The results are the same.
+    #[default]
+    All,
+}
+
+impl Threads {
+    pub(crate) fn parallel(self) -> bool {
+        self == Self::All
+    }
+}

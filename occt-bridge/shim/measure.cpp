@@ -1,0 +1,182 @@
+#include "occt-bridge/shim/measure.hpp"
+
+#include "occt-bridge/shim/partition.hpp"
+#include "occt-bridge/src/ffi.rs.h"
+
+#include <BOPTools_AlgoTools3D.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepGProp_Domain.hxx>
+#include <BRepGProp_Face.hxx>
+#include <BRepGProp_Sinert.hxx>
+#include <BRepGProp_Vinert.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom_Surface.hxx>
+#include <IntTools_Context.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+
+#include <cmath>
+
+namespace clinothem::occt {
+
+namespace {
+
+void check_eps(double eps) {
+  if (!(eps > 0.0 && eps < 0.1)) throw BadInput("eps is " + std::to_string(eps) + "; it must be above 0 and below 0.1");
+}
+
+gp_Pnt bounds_middle(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  if (box.IsVoid()) throw BadInput("the shape has no faces");
+  const gp_Pnt a = box.CornerMin();
+  const gp_Pnt b = box.CornerMax();
+  return gp_Pnt(0.5 * (a.XYZ() + b.XYZ()));
+}
+
+double largest_tolerance(const TopoDS_Face& face) {
+  double tolerance = BRep_Tool::Tolerance(face);
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next())
+    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(it.Current())));
+  for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next())
+    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Vertex(it.Current())));
+  return tolerance;
+}
+
+double radical_inverse(std::size_t i, std::size_t base) {
+  double value = 0.0;
+  double scale = 1.0 / static_cast<double>(base);
+  for (; i > 0; i /= base, scale /= static_cast<double>(base)) value += static_cast<double>(i % base) * scale;
+  return value;
+}
+
+// Appends the point of the surface at (u, v) if the normal there is defined.
+bool append_sample(const Handle(Geom_Surface)& surface, std::size_t face, double u, double v, std::vector<FaceSampleData>& out) {
+  gp_Pnt p;
+  gp_Vec du;
+  gp_Vec dv;
+  surface->D1(u, v, p, du, dv);
+  gp_Vec normal = du.Crossed(dv);
+  if (!(normal.Magnitude() > 1e-12 * du.Magnitude() * dv.Magnitude()) || normal.Magnitude() == 0.0) return false;
+  normal.Normalize();
+  out.push_back(FaceSampleData{face, {p.X(), p.Y(), p.Z()}, {normal.X(), normal.Y(), normal.Z()}});
+  return true;
+}
+
+}  // namespace
+
+Integral face_flux(const TopoDS_Face& face, const gp_Pnt& reference, double eps) {
+  BRepGProp_Face surface(face);
+  BRepGProp_Domain domain(face);
+  BRepGProp_Vinert volume;
+  volume.SetLocation(reference);
+  const double error = volume.Perform(surface, domain, eps);
+  return {volume.Mass(), error};
+}
+
+Integral face_area(const TopoDS_Face& face, double eps) {
+  BRepGProp_Face surface(face);
+  BRepGProp_Domain domain(face);
+  BRepGProp_Sinert area;
+  area.SetLocation(gp_Pnt(0, 0, 0));
+  const double error = area.Perform(surface, domain, eps);
+  return {std::abs(area.Mass()), error};
+}
+
+double shape_volume(const ShapeHandle& shape, double eps) {
+  check_eps(eps);
+  const gp_Pnt reference = bounds_middle(shape.shape);
+  if (!TopExp_Explorer(shape.shape, TopAbs_SOLID).More()) throw BadInput("the shape has no solid, so no volume");
+  double volume = 0.0;
+  for (TopExp_Explorer solid(shape.shape, TopAbs_SOLID); solid.More(); solid.Next())
+    for (TopExp_Explorer it(solid.Current(), TopAbs_FACE); it.More(); it.Next()) {
+      const TopoDS_Face& face = TopoDS::Face(it.Current());
+      if (face.Orientation() == TopAbs_FORWARD || face.Orientation() == TopAbs_REVERSED)
+        volume += face_flux(face, reference, eps).value;
+    }
+  return volume;
+}
+
+double shape_area(const ShapeHandle& shape, double eps) {
+  check_eps(eps);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape.shape, TopAbs_FACE, faces);
+  if (faces.IsEmpty()) throw BadInput("the shape has no face, so no area");
+  double area = 0.0;
+  for (int i = 1; i <= faces.Extent(); ++i) area += face_area(TopoDS::Face(faces(i)), eps).value;
+  return area;
+}
+
+std::array<double, 6> shape_bounds(const ShapeHandle& shape) {
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(shape.shape, box, Standard_False, Standard_False);
+  if (box.IsVoid()) throw BadInput("the shape is empty, so it has no bounds");
+  box.SetGap(0.0);
+  std::array<double, 6> b{};
+  box.Get(b[0], b[1], b[2], b[3], b[4], b[5]);
+  return b;
+}
+
+rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double eps, std::array<double, 3> reference, bool parallel) {
+  check_eps(eps);
+  const gp_Pnt at(reference[0], reference[1], reference[2]);
+  std::vector<FaceIntegralData> results(solids.faces.size());
+  for_each_index(solids.faces.size(), parallel, [&](std::size_t i) {
+    const TopoDS_Face face = TopoDS::Face(solids.faces[i].Oriented(TopAbs_FORWARD));
+    const Integral area = face_area(face, eps);
+    const Integral flux = face_flux(face, at, eps);
+    results[i] = FaceIntegralData{area.value, flux.value, std::max(area.error, flux.error), largest_tolerance(face)};
+  });
+  rust::Vec<FaceIntegralData> out;
+  for (const FaceIntegralData& result : results) out.push_back(result);
+  return out;
+}
+
+rust::Vec<FaceSampleData> sample_faces(const SolidsHandle& solids, std::size_t per_face, bool parallel) {
+  std::vector<std::vector<FaceSampleData>> results(solids.faces.size());
+  for_each_index(solids.faces.size(), parallel, [&](std::size_t i) {
+    if (per_face == 0) return;
+    const TopoDS_Face face = TopoDS::Face(solids.faces[i].Oriented(TopAbs_FORWARD));
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+    const Handle(IntTools_Context) context = new IntTools_Context;
+    std::vector<FaceSampleData>& out = results[i];
+    gp_Pnt p;
+    gp_Pnt2d uv;
+    // The first is the middle of the widest stretch of a hatch line: the safest point of a narrow face.
+    if (BOPTools_AlgoTools3D::PointInFace(face, p, uv, context) == 0) append_sample(surface, i, uv.X(), uv.Y(), out);
+    double u0 = 0.0;
+    double u1 = 0.0;
+    double v0 = 0.0;
+    double v1 = 0.0;
+    BRepTools::UVBounds(face, u0, u1, v0, v1);
+    const std::size_t tries = 64 * per_face;
+    for (std::size_t k = 1; k <= tries && out.size() < per_face; ++k) {
+      uv = gp_Pnt2d(u0 + (u1 - u0) * radical_inverse(k, 2), v0 + (v1 - v0) * radical_inverse(k, 3));
+      if (context->IsPointInFace(face, uv)) append_sample(surface, i, uv.X(), uv.Y(), out);
+    }
+  });
+  rust::Vec<FaceSampleData> out;
+  for (const auto& face : results)
+    for (const FaceSampleData& sample : face) out.push_back(sample);
+  return out;
+}
+
+std::unique_ptr<ClassifierHandle> new_classifier(const ShapeHandle& shape) {
+  if (!TopExp_Explorer(shape.shape, TopAbs_SOLID).More()) throw BadInput("the shape has no solid, so no inside");
+  return std::make_unique<ClassifierHandle>(shape.shape);
+}
+
+std::uint8_t ClassifierHandle::classify(std::array<double, 3> point, double tolerance) {
+  classifier.Perform(gp_Pnt(point[0], point[1], point[2]), tolerance);
+  switch (classifier.State()) {
+    case TopAbs_IN: return 0;
+    case TopAbs_OUT: return 1;
+    case TopAbs_ON: return 2;
+    default: throw Refused("the point could not be classified");
+  }
+}
+
+}  // namespace clinothem::occt

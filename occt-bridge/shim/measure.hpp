@@ -1,0 +1,40 @@
+// Areas, volumes, bounds, and whether a point is inside: by adaptive integration with a stated relative error.
+#pragma once
+
+#include "occt-bridge/shim/shape.hpp"
+
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <gp_Pnt.hxx>
+
+#include <array>
+
+namespace clinothem::occt {
+
+struct FaceIntegralData;
+struct FaceSampleData;
+struct SolidsHandle;
+
+struct Integral {
+  double value;
+  double error;  // relative, as the integrator estimates it
+};
+
+// Volume of the cone from a point over a face, positive where the face, as oriented, looks away from the point.
+Integral face_flux(const TopoDS_Face& face, const gp_Pnt& reference, double eps);
+Integral face_area(const TopoDS_Face& face, double eps);
+
+double shape_volume(const ShapeHandle& shape, double eps);
+double shape_area(const ShapeHandle& shape, double eps);
+std::array<double, 6> shape_bounds(const ShapeHandle& shape);
+rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double eps, std::array<double, 3> reference, bool parallel);
+rust::Vec<FaceSampleData> sample_faces(const SolidsHandle& solids, std::size_t per_face, bool parallel);
+
+struct ClassifierHandle {
+  explicit ClassifierHandle(const TopoDS_Shape& solid) : classifier(solid) {}
+  BRepClass3d_SolidClassifier classifier;
+  // 0 in, 1 out, 2 on
+  std::uint8_t classify(std::array<double, 3> point, double tolerance);
+};
+std::unique_ptr<ClassifierHandle> new_classifier(const ShapeHandle& shape);
+
+}  // namespace clinothem::occt

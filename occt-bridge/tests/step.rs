@@ -1,0 +1,282 @@
+//! STEP out and in.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "tests"
+)]
+
+use std::fs;
+use std::path::Path;
+
+use occt_bridge::{
+    BridgeError, Cancel, PartitionOptions, Shape, ShapeKind, Solids, StepDocument, StepNode,
+    StepSchema, bounds, box_solid, compound, partition, read_step, volume, write_step_assembly,
+    write_step_shared,
+};
+
+fn touching_boxes() -> Solids {
+    let boxes = [
+        box_solid([0.0; 3], [1000.0, 10.0, 10.0]).unwrap(),
+        box_solid([1000.0, 0.0, 0.0], [1500.0, 10.0, 10.0]).unwrap(),
+    ];
+    let p = partition(
+        &boxes,
+        &PartitionOptions::default(),
+        &Cancel::new(),
+        &|_| (),
+    )
+    .unwrap();
+    p.merge(&[Some(0), Some(1)]).unwrap()
+}
+
+fn part(name: &str, color: [u8; 3], shapes: Vec<Shape>) -> StepNode {
+    StepNode {
+        name: name.to_owned(),
+        color: Some(color),
+        layer: Some(format!("layer of {name}")),
+        description: Some("porosity=0.25".to_owned()),
+        shapes,
+        children: Vec::new(),
+    }
+}
+
+fn document(children: Vec<StepNode>) -> StepDocument {
+    StepDocument {
+        name: "two boxes".to_owned(),
+        system: "clinothem 0.1.0".to_owned(),
+        description: "a test".to_owned(),
+        schema: StepSchema::Ap214,
+        root: StepNode {
+            name: "model".to_owned(),
+            children,
+            ..StepNode::default()
+        },
+    }
+}
+
+/// An assembly in an assembly, and a part of two pieces.
+fn belt() -> StepDocument {
+    let solids = touching_boxes();
+    let pieces = vec![
+        box_solid([0.0, 20.0, 0.0], [1.0, 21.0, 1.0]).unwrap(),
+        box_solid([5.0, 20.0, 0.0], [6.0, 22.0, 1.0]).unwrap(),
+    ];
+    document(vec![
+        part("plain", [200, 190, 120], vec![solids.shape_of(0).unwrap()]),
+        StepNode {
+            name: "belt".to_owned(),
+            children: vec![
+                part("sand", [250, 220, 50], vec![solids.shape_of(1).unwrap()]),
+                part("mud", [80, 90, 100], pieces),
+            ],
+            ..StepNode::default()
+        },
+    ])
+}
+
+fn written(document: &StepDocument) -> String {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.step");
+    write_step_assembly(&path, document).unwrap();
+    fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn an_assembly_comes_back_with_names_colours_layers_tree_and_metres() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.step");
+    write_step_assembly(&path, &belt()).unwrap();
+    if let Ok(keep) = std::env::var("OCCT_BRIDGE_KEEP") {
+        fs::copy(&path, keep).unwrap();
+    }
+    let parts = read_step(&path).unwrap();
+    let told: Vec<_> = parts
+        .iter()
+        .map(|p| (p.path.as_str(), p.color, p.layer.as_deref()))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("model/plain", Some([200, 190, 120]), Some("layer of plain")),
+            (
+                "model/belt/sand",
+                Some([250, 220, 50]),
+                Some("layer of sand")
+            ),
+            ("model/belt/mud", Some([80, 90, 100]), Some("layer of mud")),
+        ]
+    );
+    for (part, exact) in parts.iter().zip([1e5, 5e4, 3.0]) {
+        let found = volume(&part.shape, 1e-9).unwrap();
+        assert!((found / exact - 1.0).abs() < 1e-12, "{found} for {exact}");
+    }
+    assert_eq!(parts[2].shape.count(ShapeKind::Solid).unwrap(), 2);
+    let b = bounds(&parts[0].shape).unwrap();
+    assert!((b.max[0] - 1000.0).abs() < 1e-6, "{b:?}");
+}
+
+#[test]
+fn the_file_declares_metres_and_its_numbers_are_metres() {
+    for schema in [StepSchema::Ap214, StepSchema::Ap242] {
+        let mut document = belt();
+        document.schema = schema;
+        let text = written(&document);
+        assert!(text.contains("SI_UNIT($,.METRE.)"));
+        assert!(!text.contains(".MILLI.,.METRE."));
+        assert!(text.contains("(1.E+03,") || text.contains("(1000.,"));
+        let name = if schema == StepSchema::Ap214 {
+            "AUTOMOTIVE_DESIGN"
+        } else {
+            "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"
+        };
+        assert!(text.contains(name));
+    }
+}
+
+#[test]
+fn descriptions_are_those_of_the_products() {
+    let text = written(&belt());
+    assert!(text.contains("PRODUCT('sand','sand','porosity=0.25'"));
+    assert!(text.contains("'clinothem 0.1.0'"));
+}
+
+#[test]
+fn two_writes_of_one_document_give_the_same_bytes() {
+    let document = belt();
+    let first = written(&document);
+    assert_eq!(first, written(&document));
+    // Another document between them moves every counter of the process.
+    written(&super_document());
+    assert_eq!(first, written(&belt()));
+}
+
+fn super_document() -> StepDocument {
+    document(vec![
+        part(
+            "other",
+            [1, 2, 3],
+            vec![box_solid([0.0; 3], [1.0; 3]).unwrap()],
+        ),
+        part(
+            "third",
+            [3, 2, 1],
+            vec![box_solid([2.0; 3], [3.0; 3]).unwrap()],
+        ),
+    ])
+}
+
+/// Not a test by itself: `two_processes_give_the_same_bytes` runs it in two.
+#[test]
+fn child_writes_where_it_is_told() {
+    if let Ok(path) = std::env::var("OCCT_BRIDGE_CHILD") {
+        write_step_assembly(Path::new(&path), &belt()).unwrap();
+    }
+}
+
+#[test]
+fn two_processes_give_the_same_bytes() {
+    let dir = tempfile::tempdir().unwrap();
+    let texts: Vec<_> = (0..3)
+        .map(|i| {
+            let path = dir.path().join(format!("{i}.step"));
+            let status = std::process::Command::new(std::env::current_exe().unwrap())
+                .args(["--exact", "child_writes_where_it_is_told"])
+                .env("OCCT_BRIDGE_CHILD", &path)
+                .output()
+                .unwrap()
+                .status;
+            assert!(status.success());
+            fs::read_to_string(path).unwrap()
+        })
+        .collect();
+    // The header's name is the document's, not the path.
+    assert!(texts[0].contains("two boxes"));
+    assert_eq!(texts[0], texts[1]);
+    assert_eq!(texts[0], texts[2]);
+}
+
+#[test]
+fn the_shared_flavour_keeps_a_common_face_and_the_assembly_does_not() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("shared.step");
+    let solids = touching_boxes();
+    let names = ["plain".to_owned(), "sand".to_owned()];
+    write_step_shared(
+        &path,
+        &solids.compound().unwrap(),
+        &names,
+        &document(Vec::new()),
+    )
+    .unwrap();
+    let count = |path: &Path| {
+        let shapes: Vec<_> = read_step(path)
+            .unwrap()
+            .into_iter()
+            .map(|p| p.shape)
+            .collect();
+        let all = compound(&shapes).unwrap();
+        (
+            all.count(ShapeKind::Solid).unwrap(),
+            all.count(ShapeKind::Face).unwrap(),
+        )
+    };
+    if let Ok(keep) = std::env::var("OCCT_BRIDGE_KEEP_SHARED") {
+        fs::copy(&path, keep).unwrap();
+    }
+    assert_eq!(count(&path), (2, 11));
+    let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("'sand'") && text.contains("SI_UNIT($,.METRE.)"));
+    let assembly = document(vec![
+        part("plain", [1, 2, 3], vec![solids.shape_of(0).unwrap()]),
+        part("sand", [3, 2, 1], vec![solids.shape_of(1).unwrap()]),
+    ]);
+    write_step_assembly(&path, &assembly).unwrap();
+    assert_eq!(count(&path), (2, 12));
+}
+
+#[test]
+fn misuse_is_an_error_that_names_the_node() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.step");
+    let cube = || box_solid([0.0; 3], [1.0; 3]).unwrap();
+    let fails = |children| {
+        write_step_assembly(&path, &document(children))
+            .unwrap_err()
+            .to_string()
+    };
+    let message = fails(vec![part("Sandkörper", [0; 3], vec![cube()])]);
+    assert!(
+        message.contains("Sandkörper") && message.contains("ASCII"),
+        "{message}"
+    );
+    assert!(fails(vec![part("", [0; 3], vec![cube()])]).contains("name is empty"));
+    assert!(
+        fails(vec![part("empty", [0; 3], Vec::new())])
+            .contains("\"empty\" has 0 shapes and 0 children")
+    );
+    let one = cube();
+    let twice = vec![
+        part("a", [0; 3], vec![one.clone()]),
+        part("b", [0; 3], vec![one]),
+    ];
+    assert!(fails(twice).contains("a shape of \"b\" is used twice"));
+    assert!(!path.exists());
+}
+
+#[test]
+fn an_unwritable_or_unreadable_path_is_an_io_error() {
+    let nowhere = Path::new("/nonexistent/a.step");
+    let error = write_step_assembly(nowhere, &belt()).unwrap_err();
+    assert!(matches!(error, BridgeError::Io { .. }), "{error:?}");
+    let solids = touching_boxes().compound().unwrap();
+    let error = write_step_shared(nowhere, &solids, &[], &document(Vec::new())).unwrap_err();
+    assert!(matches!(error, BridgeError::Io { .. }), "{error:?}");
+    let error = read_step(nowhere).unwrap_err();
+    assert!(matches!(error, BridgeError::Io { .. }), "{error:?}");
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.step");
+    fs::write(&path, "not STEP at all\n").unwrap();
+    let error = read_step(&path).unwrap_err();
+    assert!(matches!(error, BridgeError::Io { .. }), "{error:?}");
+}
