@@ -11,9 +11,12 @@
 
 mod banded;
 mod basis;
+mod bezier;
+mod closest;
 mod curve;
 mod derive;
 mod elevate;
+pub mod enclosure;
 pub mod interpolate;
 mod knots;
 mod refine;
@@ -22,6 +25,7 @@ mod ruled;
 mod split;
 mod surface;
 
+pub use closest::{Closest, ClosestOnSurface};
 pub use curve::{Curve, CurveError};
 pub use elevate::ElevateError;
 pub use knots::{Basis, KnotError, KnotVector, MAX_DEGREE};

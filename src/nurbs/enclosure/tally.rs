@@ -1,0 +1,106 @@
+//! Counting the crossings of one ray.
+
+use super::Piece;
+use super::projection::Crossing;
+
+/// What one ray says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The ray starts on the shell.
+    OnShell,
+    /// The ray crosses the shell so many times.
+    Crossings(usize),
+    /// The ray meets an edge, a fold or a face edge-on; the number is a guess.
+    Unclear(usize),
+}
+
+/// A crossing on the side of a part of a patch, which the neighbouring part reports too.
+struct Seam {
+    surface: usize,
+    parameters: (f64, f64),
+    reach: (f64, f64),
+    upward: bool,
+}
+
+/// The crossings of one ray so far.
+#[derive(Default)]
+pub(super) struct Tally {
+    count: usize,
+    on_shell: bool,
+    unclear: bool,
+    seams: Vec<Seam>,
+}
+
+impl Tally {
+    /// A crossing inside a part of a patch.
+    pub(super) fn cross(&mut self) {
+        self.count += 1;
+    }
+
+    /// The ray starts on the shell.
+    pub(super) fn touch(&mut self) {
+        self.on_shell = true;
+    }
+
+    /// The ray meets something that it can't count.
+    pub(super) fn doubt(&mut self) {
+        self.unclear = true;
+    }
+
+    /// A crossing on the side of a part of a patch.
+    pub(super) fn seam(&mut self, piece: &Piece, crossing: &Crossing) {
+        let range = |[start, end]: [f64; 2]| end - start;
+        let (u, v) = piece
+            .region
+            .at(crossing.parameters.0, crossing.parameters.1);
+        let reach = (
+            crossing.reach.0 * range(piece.region.u),
+            crossing.reach.1 * range(piece.region.v),
+        );
+        let near =
+            |x: f64, [start, end]: [f64; 2], reach: f64| x - start <= reach || end - x <= reach;
+        if near(u, piece.domain.u, reach.0) || near(v, piece.domain.v, reach.1) {
+            self.unclear = true;
+        }
+        let own = Seam {
+            surface: piece.surface,
+            parameters: (u, v),
+            reach,
+            upward: crossing.upward,
+        };
+        if let Some(other) = self.seams.iter().find(|other| other.is(&own)) {
+            // Neighbours that disagree about the direction meet in a crease that the ray touches.
+            self.unclear |= other.upward != own.upward;
+        } else {
+            self.count += 1;
+            self.seams.push(own);
+        }
+    }
+
+    pub(super) fn outcome(&self) -> Outcome {
+        if self.on_shell {
+            Outcome::OnShell
+        } else if self.unclear {
+            Outcome::Unclear(self.count)
+        } else {
+            Outcome::Crossings(self.count)
+        }
+    }
+}
+
+impl Seam {
+    fn is(&self, other: &Self) -> bool {
+        let near = |a: f64, b: f64, reach: f64| (a - b).abs() <= reach;
+        self.surface == other.surface
+            && near(
+                self.parameters.0,
+                other.parameters.0,
+                self.reach.0 + other.reach.0,
+            )
+            && near(
+                self.parameters.1,
+                other.parameters.1,
+                self.reach.1 + other.reach.1,
+            )
+    }
+}

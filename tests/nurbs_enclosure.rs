@@ -1,0 +1,355 @@
+//! Point in closed shell, against solids whose inside is known exactly.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use clinothem::nurbs::enclosure::{Enclosure, EnclosureError, Side};
+use clinothem::nurbs::interpolate::{self, Parametrization};
+use clinothem::nurbs::{Curve, KnotVector, Surface};
+use glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+
+/// A fixed sequence of points in a box, spread evenly (the R3 sequence of the plastic number's cousin).
+fn scattered(count: usize, low: DVec3, high: DVec3) -> impl Iterator<Item = DVec3> {
+    let g = 1.220_744_084_605_759_5_f64;
+    let step = DVec3::new(1.0 / g, 1.0 / (g * g), 1.0 / (g * g * g));
+    (1..=count).map(move |k| low + (high - low) * (0.5 + step * k as f64).fract())
+}
+
+const QUARTERS: [f64; 12] = [
+    0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
+];
+const CORNERS: [(f64, f64); 9] = [
+    (1.0, 0.0),
+    (1.0, 1.0),
+    (0.0, 1.0),
+    (-1.0, 1.0),
+    (-1.0, 0.0),
+    (-1.0, -1.0),
+    (0.0, -1.0),
+    (1.0, -1.0),
+    (1.0, 0.0),
+];
+
+/// The surface of revolution about z of a rational quadratic profile (distance from the axis, height, weight).
+fn revolved(
+    profile: &[(f64, f64, f64)],
+    profile_knots: Vec<f64>,
+    place: impl Fn(DVec3) -> DVec3,
+) -> Surface {
+    let (mut net, mut weights) = (Vec::new(), Vec::new());
+    for (k, &(x, y)) in CORNERS.iter().enumerate() {
+        for &(r, z, w) in profile {
+            net.push(place(DVec3::new(r * x, r * y, z)));
+            weights.push(w * if k % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 });
+        }
+    }
+    let u = KnotVector::new(2, QUARTERS.to_vec()).unwrap();
+    let v = KnotVector::new(2, profile_knots).unwrap();
+    Surface::rational(u, v, net, weights).unwrap()
+}
+
+fn sphere(place: impl Fn(DVec3) -> DVec3) -> Surface {
+    let c = FRAC_1_SQRT_2;
+    let profile = [
+        (0.0, -1.0, 1.0),
+        (1.0, -1.0, c),
+        (1.0, 0.0, 1.0),
+        (1.0, 1.0, c),
+        (0.0, 1.0, 1.0),
+    ];
+    revolved(
+        &profile,
+        vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0],
+        place,
+    )
+}
+
+fn torus(major: f64, minor: f64) -> Surface {
+    let profile: Vec<_> = CORNERS
+        .iter()
+        .enumerate()
+        .map(|(k, &(x, z))| {
+            (
+                major + minor * x,
+                minor * z,
+                if k % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 },
+            )
+        })
+        .collect();
+    revolved(&profile, QUARTERS.to_vec(), |p| p)
+}
+
+fn plane(corners: [DVec3; 4]) -> Surface {
+    let line = || KnotVector::uniform(1, 2).unwrap();
+    Surface::new(line(), line(), corners.to_vec()).unwrap()
+}
+
+fn box_shell(size: DVec3, place: impl Fn(DVec3) -> DVec3) -> Vec<Surface> {
+    let corner = |k: usize| {
+        let bit = |b: usize| if k & (1 << b) == 0 { 0.0 } else { 1.0 };
+        place(DVec3::new(bit(0), bit(1), bit(2)) * size)
+    };
+    [
+        [0, 1, 2, 3],
+        [4, 5, 6, 7],
+        [0, 1, 4, 5],
+        [2, 3, 6, 7],
+        [0, 2, 4, 6],
+        [1, 3, 5, 7],
+    ]
+    .map(|face| plane(face.map(corner)))
+    .to_vec()
+}
+
+#[test]
+fn a_sphere_holds_the_points_nearer_than_its_radius() {
+    let shell = Enclosure::new(vec![sphere(|p| 10.0 * p)]).unwrap();
+    for p in scattered(20_000, DVec3::splat(-11.0), DVec3::splat(11.0)) {
+        assert_eq!(shell.contains(p), p.length() < 10.0, "{p}");
+    }
+    // Above and below the poles, on the seam and on the circles where patches meet.
+    for (p, inside) in [
+        (DVec3::new(0.0, 0.0, 9.0), true),
+        (DVec3::new(0.0, 0.0, -9.0), true),
+        (DVec3::new(0.0, 0.0, -11.0), false),
+        (DVec3::new(5.0, 0.0, -5.0), true),
+        (DVec3::new(5.0, 0.0, -9.0), false),
+        (DVec3::new(10.0, 0.0, -5.0), false),
+        (DVec3::new(0.0, 0.0, 0.0), true),
+    ] {
+        assert_eq!(shell.contains(p), inside, "{p}");
+    }
+}
+
+#[test]
+fn points_a_millionth_of_the_radius_off_a_tilted_ellipsoid_are_on_the_right_side() {
+    let tilt = DMat3::from_euler(glam::EulerRot::XYZ, 0.3, -0.7, 1.1);
+    let axes = DVec3::new(40.0, 15.0, 4.0);
+    let centre = DVec3::new(412_300.0, 6_753_000.0, -2_000.0);
+    let shell = Enclosure::new(vec![sphere(|p| centre + tilt * (axes * p))]).unwrap();
+    for p in scattered(10_000, DVec3::splat(-1.0), DVec3::splat(1.0)) {
+        let on = p.normalize();
+        for (factor, inside) in [(1.0 - 1e-6, true), (1.0 + 1e-6, false)] {
+            assert_eq!(
+                shell.contains(centre + tilt * (axes * on * factor)),
+                inside,
+                "{on} {factor}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_torus_holds_the_points_near_its_core_and_none_in_its_hole() {
+    let shell = Enclosure::new(vec![torus(10.0, 3.0)]).unwrap();
+    let inside = |p: DVec3| DVec2::new(DVec2::new(p.x, p.y).length() - 10.0, p.z).length() < 3.0;
+    for p in scattered(
+        20_000,
+        DVec3::new(-14.0, -14.0, -4.0),
+        DVec3::new(14.0, 14.0, 4.0),
+    ) {
+        assert_eq!(shell.contains(p), inside(p), "{p}");
+    }
+}
+
+#[test]
+fn a_box_holds_its_inside_whichever_way_it_lies() {
+    let size = DVec3::new(100.0, 30.0, 7.0);
+    let turn = DMat3::from_euler(glam::EulerRot::ZYX, 0.4, 0.9, 0.2);
+    for turn in [DMat3::IDENTITY, turn, DMat3::from_rotation_z(0.7)] {
+        let shell = Enclosure::new(box_shell(size, |p| turn * p)).unwrap();
+        for p in scattered(5_000, -0.2 * size, 1.2 * size) {
+            let inside = p.cmpgt(DVec3::ZERO).all() && p.cmplt(size).all();
+            assert_eq!(shell.contains(turn * p), inside, "{p}");
+        }
+    }
+}
+
+#[test]
+fn a_grid_that_lies_on_a_box_finds_its_faces_edges_and_corners_inside() {
+    let size = DVec3::new(4.0, 3.0, 2.0);
+    let shell = Enclosure::new(box_shell(size, |p| p)).unwrap();
+    for x in -1..=5 {
+        for y in -1..=4 {
+            for z in -1..=3 {
+                let p = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                let inside = p.cmpge(DVec3::ZERO).all() && p.cmple(size).all();
+                assert_eq!(shell.contains(p), inside, "{p}");
+            }
+        }
+    }
+}
+
+/// A channel-like body: section y(w), depth; a sinuous centre line; the banks overhang by the given factor.
+fn channel(overhang: f64, stations: usize) -> Vec<Surface> {
+    let section: Vec<(f64, f64)> = vec![
+        (-30.0, 0.0),
+        (-30.0 - 20.0 * overhang, -4.0),
+        (-6.0, -9.0),
+        (0.0, -9.0),
+        (6.0, -9.0),
+        (30.0 + 20.0 * overhang, -4.0),
+        (30.0, 0.0),
+    ];
+    let along: Vec<f64> = (0..stations)
+        .map(|k| k as f64 / (stations - 1) as f64)
+        .collect();
+    let place = |s: f64, across: f64, z: f64| {
+        let x = 2000.0 * s;
+        let y = 120.0 * (TAU * 2.5 * s).sin();
+        let slope = 120.0 * TAU * 2.5 / 2000.0 * (TAU * 2.5 * s).cos();
+        let normal = DVec2::new(-slope, 1.0).normalize();
+        DVec3::new(x + across * normal.x, y + across * normal.y, z + 0.001 * x)
+    };
+    let rows: Vec<Vec<DVec3>> = section
+        .iter()
+        .map(|&(across, z)| along.iter().map(|&s| place(s, across, z)).collect())
+        .collect();
+    let (v, rows) = interpolate::with_parameters(&rows, &along, 3).unwrap();
+    let u = KnotVector::uniform(3, section.len()).unwrap();
+    let base = Surface::new(u, v, rows.concat()).unwrap();
+    let top = Surface::ruled(&base.isocurve_u(0.0), &base.isocurve_u(1.0)).unwrap();
+    let caps = [0.0, 1.0].map(|s| Surface::ruled(&base.isocurve_v(s), &top.isocurve_v(s)).unwrap());
+    let [first, last] = caps;
+    vec![base, top, first, last]
+}
+
+/// The winding number of a fine triangulation of the shell: the oracle knows nothing of rays.
+fn winding(triangles: &[[DVec3; 3]], p: DVec3) -> f64 {
+    let solid_angle = |&[a, b, c]: &[DVec3; 3]| {
+        let (a, b, c) = (a - p, b - p, c - p);
+        let (la, lb, lc) = (a.length(), b.length(), c.length());
+        let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+        2.0 * a.dot(b.cross(c)).atan2(below)
+    };
+    triangles.iter().map(solid_angle).sum::<f64>() / (2.0 * TAU)
+}
+
+fn triangulated(surface: &Surface, nu: usize, nv: usize, flip: bool) -> Vec<[DVec3; 3]> {
+    let at = |i: usize, j: usize| surface.point(i as f64 / nu as f64, j as f64 / nv as f64);
+    let mut triangles = Vec::new();
+    for i in 0..nu {
+        for j in 0..nv {
+            let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            let [x, y] = [[a, b, c], [a, c, d]];
+            let turn = |[a, b, c]: [DVec3; 3]| if flip { [a, c, b] } else { [a, b, c] };
+            triangles.extend([turn(x), turn(y)]);
+        }
+    }
+    triangles
+}
+
+#[test]
+fn channels_with_and_without_overhanging_banks_agree_with_the_winding_number_of_a_fine_mesh() {
+    for overhang in [0.0, 1.0] {
+        let surfaces = channel(overhang, 41);
+        let mut triangles = Vec::new();
+        // The sense of each face is read off the construction: base and top share u, caps run with v.
+        for (surface, (nu, nv, flip)) in surfaces.iter().zip([
+            (40, 400, false),
+            (1, 400, true),
+            (1, 40, false),
+            (1, 40, true),
+        ]) {
+            triangles.extend(triangulated(surface, nu, nv, flip));
+        }
+        let shell = Enclosure::new(surfaces).unwrap();
+        let (low, high) = shell.bounds();
+        let mut held = 0;
+        for p in scattered(1_500, low, high) {
+            let turns = winding(&triangles, p).abs();
+            // Where the mesh and the surface may differ, the mesh is no oracle.
+            if shell.distance(p, 0.2).is_none() {
+                assert!((turns - turns.round()).abs() < 1e-6, "{p} {turns}");
+                assert_eq!(shell.contains(p), turns > 0.5, "{p}");
+                held += usize::from(turns > 0.5);
+            }
+        }
+        assert!(held > 50, "{held}");
+    }
+}
+
+#[test]
+fn an_open_shell_is_refused_with_its_open_side() {
+    let mut surfaces = box_shell(DVec3::ONE, |p| p);
+    surfaces.pop();
+    let Err(EnclosureError::Open { surface, side, .. }) = Enclosure::new(surfaces) else {
+        panic!("an open box is no shell")
+    };
+    assert_eq!((surface, side), (0, Side::VEnd));
+}
+
+#[test]
+fn edges_that_run_differently_along_the_same_curve_pair_up() {
+    let mut surfaces = box_shell(DVec3::ONE, |p| p);
+    surfaces[1] = surfaces[1]
+        .elevate_u(1)
+        .unwrap()
+        .insert_knot_v(0.3, 1)
+        .unwrap()
+        .reversed_u();
+    assert!(Enclosure::new(surfaces).is_ok());
+}
+
+#[test]
+fn the_distance_to_a_sphere_is_that_to_its_centre_less_the_radius() {
+    let shell = Enclosure::new(vec![sphere(|p| 10.0 * p)]).unwrap();
+    for p in scattered(300, DVec3::splat(-14.0), DVec3::splat(14.0)) {
+        let expected = (p.length() - 10.0).abs();
+        match shell.distance(p, 2.0) {
+            Some(distance) => assert!((distance - expected).abs() < 1e-7),
+            None => assert!(expected >= 2.0 - 1e-7),
+        }
+    }
+}
+
+#[test]
+#[ignore = "measures time; run with --release --nocapture"]
+#[allow(clippy::print_stdout, reason = "a measurement")]
+fn speed() {
+    for (name, surfaces) in [
+        ("channel", channel(0.0, 201)),
+        ("overhanging channel", channel(1.0, 201)),
+        ("sphere", vec![sphere(|p| 10.0 * p)]),
+        ("box", box_shell(DVec3::ONE, |p| p)),
+    ] {
+        let start = std::time::Instant::now();
+        let shell = Enclosure::new(surfaces).unwrap();
+        let built = start.elapsed();
+        let (low, high) = shell.bounds();
+        let points: Vec<_> = scattered(1_000_000, low, high).collect();
+        let start = std::time::Instant::now();
+        let held = points.iter().filter(|p| shell.contains(**p)).count();
+        let asked = start.elapsed();
+        println!(
+            "{name}: built in {built:?}, {:?} a point, {held} inside",
+            asked / 1_000_000
+        );
+    }
+    let curve: Curve = interpolate::curve(
+        &(0..50)
+            .map(|k| DVec3::new(f64::from(k), f64::from(k % 7), 0.0))
+            .collect::<Vec<_>>(),
+        3,
+        Parametrization::ChordLength,
+    )
+    .unwrap();
+    let surface = channel(0.0, 201).remove(0);
+    let start = std::time::Instant::now();
+    let mut sum = DVec3::ZERO;
+    for k in 0..1_000_000 {
+        sum += curve.point(f64::from(k) * 1e-6);
+    }
+    println!("curve points: {:?} each", start.elapsed() / 1_000_000);
+    let start = std::time::Instant::now();
+    for k in 0..1_000_000 {
+        sum += surface.point(f64::from(k % 1000) * 1e-3, f64::from(k) * 1e-6);
+    }
+    println!(
+        "surface points: {:?} each ({sum})",
+        start.elapsed() / 1_000_000
+    );
+}
