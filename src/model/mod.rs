@@ -1,1 +1,38 @@
-//! To be written.
+//! The model file: text becomes a checked [`Model`], or every defect at once.
+//!
+//! ```text
+//! text ──toml_text, json_text──▶ tree ──overrides──▶ tree ──read (serde), check──▶ Model
+//! ```
+//! A [`Source`] is a text and the overrides given with it; [`Model::check`] turns it into a [`Model`] whose references are
+//! indices and whose numbers are possible, or into [`Defects`]. [`Quantity`] and [`Profile`] are drawn from a [`Stream`].
+
+mod check;
+mod defects;
+mod expression;
+mod file;
+mod json_text;
+mod overrides;
+mod profile;
+mod quantity;
+mod read;
+mod schema;
+mod source;
+mod spec;
+mod stream;
+mod suggest;
+mod toml_text;
+mod tree;
+
+pub use defects::{Defect, Defects};
+pub use expression::{EvaluationError, Expression, ExpressionError, FUNCTIONS};
+pub use profile::{Course, Profile};
+pub use quantity::{
+    Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS, Quantity,
+};
+pub use schema::schema;
+pub use source::{Format, LARGEST_FILE, ReadError, Source};
+pub use spec::{
+    ChannelSpec, Domain, Facies, Feature, FeatureKind, Model, Note, Parametrization, Pick, Place,
+    Property, Rgb, SectionOrigin, Selector, TrajectorySpec,
+};
+pub use stream::Stream;

@@ -1,0 +1,400 @@
+//! The domain and the facies.
+
+use super::Checker;
+use crate::model::file::{DomainFile, FaciesFile};
+use crate::model::read::{Any, Field};
+use crate::model::spec::{Domain, Facies, Feature, Property, Rgb};
+use crate::model::suggest;
+use crate::model::tree::{Entry, NodeId, Value, quoted};
+
+/// A domain thinner than this is a slip, not a model, in metres.
+const THINNEST: f64 = 1e-3;
+
+/// Colours of facies that have none of their own, in turn: muted, and told apart without red against green.
+const PALETTE: [Rgb; 8] = [
+    Rgb {
+        r: 0xe6,
+        g: 0xc2,
+        b: 0x5c,
+    },
+    Rgb {
+        r: 0x9a,
+        g: 0x8f,
+        b: 0x78,
+    },
+    Rgb {
+        r: 0x5b,
+        g: 0x8a,
+        b: 0xa6,
+    },
+    Rgb {
+        r: 0xb8,
+        g: 0x6b,
+        b: 0x4b,
+    },
+    Rgb {
+        r: 0x7d,
+        g: 0x9b,
+        b: 0x5f,
+    },
+    Rgb {
+        r: 0x8a,
+        g: 0x6f,
+        b: 0x9e,
+    },
+    Rgb {
+        r: 0xd8,
+        g: 0xa4,
+        b: 0x87,
+    },
+    Rgb {
+        r: 0x4f,
+        g: 0x5d,
+        b: 0x6b,
+    },
+];
+
+/// The facies of the file: their names are known even where they are broken, so references can be judged.
+pub(super) struct FaciesList {
+    names: Vec<String>,
+    nodes: Vec<NodeId>,
+    read: Vec<Option<Facies>>,
+    whole: bool,
+}
+
+impl FaciesList {
+    pub(super) fn finished(self) -> Option<Vec<Facies>> {
+        self.whole
+            .then(|| self.read.into_iter().collect::<Option<Vec<_>>>())
+            .flatten()
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
+    pub(super) fn names(&self) -> Vec<&str> {
+        self.names.iter().map(String::as_str).collect()
+    }
+}
+
+impl Checker<'_> {
+    pub(super) fn all_facies(&self, field: Field<Any>, root: NodeId) -> FaciesList {
+        let mut list = FaciesList {
+            names: Vec::new(),
+            nodes: Vec::new(),
+            read: Vec::new(),
+            whole: false,
+        };
+        let example = "a table [facies.sand] with color = \"#e6c25c\"";
+        let Some((node, Any)) = self.reader.need(field, root, "facies", example) else {
+            return list;
+        };
+        let Value::Table(entries) = self.reader.tree.value(node) else {
+            self.reader.wrong(
+                node,
+                format!(
+                    "expected a table of facies, found {}",
+                    self.reader.tree.describe(node)
+                ),
+                "write a table for each facies: [facies.sand], [facies.mud]",
+            );
+            return list;
+        };
+        if entries.is_empty() {
+            self.reader
+                .wrong(node, "the model has no facies", format!("add {example}"));
+            return list;
+        }
+        list.whole = true;
+        for (number, entry) in entries.iter().enumerate() {
+            list.names.push(entry.key.clone());
+            list.nodes.push(entry.node);
+            list.read.push(self.facies(entry, number));
+        }
+        list
+    }
+
+    fn facies(&self, entry: &Entry, number: usize) -> Option<Facies> {
+        let Entry { key, node, .. } = entry;
+        let before = self.reader.found();
+        if !is_id(key) {
+            self.reader.report(crate::model::defects::Defect::new(
+                entry.key_span,
+                format!("{} is not a name for a facies", quoted(key)),
+                "use letters, digits, `-` and `_`",
+            ));
+        }
+        let file: FaciesFile = self.reader.table(*node)?;
+        let color = match file.color.map(Field::good) {
+            None => Some(PALETTE[number % PALETTE.len()]),
+            Some(given) => given.and_then(|(at, text)| self.color(at, &text)),
+        };
+        let properties = self.properties(*node, key);
+        let (porosity, permeability) = (file.porosity, file.permeability);
+        if let Some((at, value)) = porosity.and_then(Field::good)
+            && !(0.0..=1.0).contains(&value)
+        {
+            self.reader.wrong(
+                at,
+                format!(
+                    "the porosity of facies {} is {value}; it must lie between 0 and 1",
+                    quoted(key)
+                ),
+                if (1.0..=100.0).contains(&value) {
+                    format!("write a fraction, not percent: {}", value / 100.0)
+                } else {
+                    "write a fraction of the rock's volume".to_owned()
+                },
+            );
+        }
+        if let Some((at, Any)) = permeability.and_then(Field::good)
+            && let Some(property) = self.property(at)
+        {
+            let lowest = match property {
+                Property::Scalar(value) => value,
+                Property::Vector(values) => values.into_iter().fold(f64::INFINITY, f64::min),
+            };
+            if lowest < 0.0 {
+                self.reader.wrong(
+                    at,
+                    format!(
+                        "the permeability of facies {} is {lowest}; it cannot be negative",
+                        quoted(key)
+                    ),
+                    "write millidarcy (not the logarithm): one number, or [x, y, z]",
+                );
+            }
+        }
+        (self.reader.found() == before).then_some(())?;
+        Some(Facies {
+            name: key.clone(),
+            color: color?,
+            description: file.description.and_then(Field::good).map(|(_, text)| text),
+            net: file.net.and_then(Field::good).map(|(_, net)| net),
+            properties,
+        })
+    }
+
+    /// Every number of the facies, in file order.
+    fn properties(&self, facies: NodeId, name: &str) -> Vec<(String, Property)> {
+        let known = self.reader.known(facies);
+        let unknown: Vec<&str> = self
+            .reader
+            .unknown(facies)
+            .iter()
+            .map(|entry| entry.key.as_str())
+            .collect();
+        let mut properties = Vec::new();
+        for entry in self.reader.tree.entries(facies) {
+            let key = entry.key.as_str();
+            if unknown.contains(&key) {
+                let property_like = matches!(
+                    self.reader.tree.value(entry.node),
+                    Value::Integer(_) | Value::Float(_) | Value::List(_)
+                );
+                if !property_like || slip(key, &known) || !is_id(key) {
+                    let what = format!("facies {}", quoted(name));
+                    self.reader.unknown_key(entry, &known, &what);
+                    continue;
+                }
+            } else if !["porosity", "permeability"].contains(&key) {
+                continue;
+            }
+            let value = match self.reader.tree.value(entry.node) {
+                // A wrong type is reported where the known keys are read.
+                Value::Integer(_) | Value::Float(_) | Value::List(_) => self.property(entry.node),
+                _ => None,
+            };
+            match (key, value) {
+                ("permeability", Some(Property::Scalar(k))) => {
+                    properties.push((key.to_owned(), Property::Vector([k; 3])));
+                }
+                (_, Some(value)) => properties.push((key.to_owned(), value)),
+                (_, None) => {}
+            }
+        }
+        properties
+    }
+
+    fn property(&self, node: NodeId) -> Option<Property> {
+        let numbers = match self.reader.tree.value(node) {
+            Value::List(elements) => elements.as_slice(),
+            _ => &[node],
+        };
+        // Any unit is possible (a modulus in pascals, say), so the limit for lengths does not apply.
+        let mut values = Vec::new();
+        for &number in numbers {
+            match self.reader.tree.number(number) {
+                Some(value) if value.is_finite() => values.push(value),
+                _ => {
+                    let found = self.reader.tree.describe(number);
+                    self.reader.wrong(
+                        number,
+                        format!("expected a finite number, found {found}"),
+                        "rock properties are numbers: one, or [x, y, z]",
+                    );
+                    return None;
+                }
+            }
+        }
+        match (self.reader.tree.value(node), values.as_slice()) {
+            (Value::List(_), &[x, y, z]) => Some(Property::Vector([x, y, z])),
+            (Value::List(_), _) => {
+                self.reader.wrong(
+                    node,
+                    format!(
+                        "expected one number or [x, y, z], found a list of {}",
+                        values.len()
+                    ),
+                    "write one number, or three in [ ]",
+                );
+                None
+            }
+            (_, &[value]) => Some(Property::Scalar(value)),
+            _ => None,
+        }
+    }
+
+    fn color(&self, node: NodeId, text: &str) -> Option<Rgb> {
+        let color = parse_color(text);
+        if color.is_none() {
+            self.reader.wrong(
+                node,
+                format!("{} is not a colour", quoted(text)),
+                "write red, green and blue as hexadecimal digits: \"#e6c25c\"",
+            );
+        }
+        color
+    }
+
+    pub(super) fn domain(
+        &self,
+        field: Field<Any>,
+        root: NodeId,
+        facies: &FaciesList,
+    ) -> Option<Domain> {
+        let example =
+            "a table [domain] with x = [0, 1000], y = [0, 1000], z = [-60, 0], facies = \"mud\"";
+        let (table, Any) = self.reader.need(field, root, "domain", example)?;
+        let file: DomainFile = self.reader.table(table)?;
+        self.reader.close(table, "the domain");
+        let x = self.range(file.x, table, "x", "x = [0, 1000]");
+        let y = self.range(file.y, table, "y", "y = [0, 1000]");
+        let z = self.range(file.z, table, "z", "z = [-60, 0]");
+        let example = "facies = \"mud\"";
+        let named = self.reader.need(file.facies, table, "facies", example);
+        let facies = named.and_then(|(node, name)| self.known_facies(node, &name, facies));
+        Some(Domain {
+            x: x?,
+            y: y?,
+            z: z?,
+            facies: facies?,
+        })
+    }
+
+    fn range(
+        &self,
+        field: Field<[f64; 2]>,
+        table: NodeId,
+        axis: &str,
+        example: &str,
+    ) -> Option<[f64; 2]> {
+        if matches!(field, Field::Missing) {
+            self.reader.wrong(
+                table,
+                format!("the domain has no `{axis}`"),
+                format!("add it, for example: {example}"),
+            );
+        }
+        let (node, [low, high]) = field.good()?;
+        if high - low >= THINNEST {
+            return Some([low, high]);
+        }
+        let remedy = match axis {
+            "z" => "write [base, top]; z points up, so depths are negative: z = [-60, 0]",
+            _ => "write [smaller, larger]",
+        };
+        let problem = if high < low {
+            "the wrong way round"
+        } else {
+            "empty"
+        };
+        self.reader.wrong(
+            node,
+            format!("the domain's `{axis}` from {low} to {high} is {problem}"),
+            remedy,
+        );
+        None
+    }
+
+    pub(super) fn known_facies(
+        &self,
+        node: NodeId,
+        name: &str,
+        facies: &FaciesList,
+    ) -> Option<usize> {
+        let found = facies.find(name);
+        if found.is_none() {
+            self.reader.wrong(
+                node,
+                format!("there is no facies {}", quoted(name)),
+                suggest::name(name, &facies.names(), "facies"),
+            );
+        }
+        found
+    }
+
+    pub(super) fn note_unused_facies(
+        &mut self,
+        facies: &FaciesList,
+        domain: &Domain,
+        features: &[Feature],
+    ) {
+        for (i, name) in facies.names.iter().enumerate() {
+            if domain.facies != i && features.iter().all(|feature| feature.facies != i) {
+                self.note(
+                    facies.nodes[i],
+                    format!("nothing is of the facies `{name}`"),
+                );
+            }
+        }
+    }
+}
+
+/// Whether an unknown key is more likely a known one misspelt than a property of its own.
+fn slip(key: &str, known: &[&str]) -> bool {
+    key.chars().count() >= 4 && suggest::nearest(key, known).is_some()
+}
+
+/// Whether a name may stand in the names of volumes.
+pub(super) fn is_id(name: &str) -> bool {
+    !name.is_empty()
+        && name
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
+}
+
+fn parse_color(text: &str) -> Option<Rgb> {
+    let digits = text.strip_prefix('#')?;
+    if !digits.chars().all(|c| c.is_ascii_hexdigit()) {
+        return None;
+    }
+    let number = u32::from_str_radix(digits, 16).ok()?;
+    let channel = |shift: u32, mask: u32, scale: u32| {
+        u8::try_from(((number >> shift) & mask) * scale).unwrap_or(u8::MAX)
+    };
+    match digits.len() {
+        3 => Some(Rgb {
+            r: channel(8, 0xf, 17),
+            g: channel(4, 0xf, 17),
+            b: channel(0, 0xf, 17),
+        }),
+        6 => Some(Rgb {
+            r: channel(16, 0xff, 1),
+            g: channel(8, 0xff, 1),
+            b: channel(0, 0xff, 1),
+        }),
+        _ => None,
+    }
+}

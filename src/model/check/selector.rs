@@ -1,0 +1,219 @@
+//! Who removes whom: `removes` and `removed_by`.
+
+use super::Checker;
+use super::feature::{Draft, ids};
+use super::rock::FaciesList;
+use crate::model::file::PickFile;
+use crate::model::read::{Any, Field};
+use crate::model::spec::{Pick, Selector};
+use crate::model::suggest;
+use crate::model::tree::{NodeId, Value, quoted};
+
+/// One of the two rules, and the word for its default.
+#[derive(Clone, Copy)]
+struct Rule {
+    key: &'static str,
+    default: &'static str,
+    other_default: &'static str,
+}
+
+const REMOVES: Rule = Rule {
+    key: "removes",
+    default: "older",
+    other_default: "younger",
+};
+const REMOVED_BY: Rule = Rule {
+    key: "removed_by",
+    default: "younger",
+    other_default: "older",
+};
+
+/// What a pick is judged against.
+struct Context<'c> {
+    rule: Rule,
+    drafts: &'c [Draft],
+    /// Which of the drafts the rule belongs to.
+    index: usize,
+    facies: &'c FaciesList,
+}
+
+impl Checker<'_> {
+    pub(super) fn removes(
+        &mut self,
+        draft: &Draft,
+        field: &Option<Field<Any>>,
+        drafts: &[Draft],
+        index: usize,
+        facies: &FaciesList,
+    ) -> Option<Selector> {
+        let context = Context {
+            rule: REMOVES,
+            drafts,
+            index,
+            facies,
+        };
+        self.selector(field, draft, &context)
+    }
+
+    pub(super) fn removed_by(
+        &mut self,
+        draft: &Draft,
+        field: &Option<Field<Any>>,
+        drafts: &[Draft],
+        index: usize,
+        facies: &FaciesList,
+    ) -> Option<Selector> {
+        let context = Context {
+            rule: REMOVED_BY,
+            drafts,
+            index,
+            facies,
+        };
+        self.selector(field, draft, &context)
+    }
+
+    fn selector(
+        &mut self,
+        field: &Option<Field<Any>>,
+        draft: &Draft,
+        context: &Context<'_>,
+    ) -> Option<Selector> {
+        let rule = context.rule;
+        let node = match field {
+            None => return Some(Selector::Everything),
+            Some(Field::Good(node, Any)) => *node,
+            Some(_) => return None,
+        };
+        match self.reader.tree.value(node) {
+            Value::Text(word) if word == rule.default || word == "everything" => {
+                Some(Selector::Everything)
+            }
+            Value::Text(word) if word == "nothing" => Some(Selector::Only(Vec::new())),
+            Value::Text(word) => {
+                let remedy = if ids(context.drafts).contains(&word.as_str()) {
+                    format!("write a list: {} = [{word:?}]", rule.key)
+                } else if word == rule.other_default {
+                    format!("`{}` can be \"{}\"", rule.key, rule.default)
+                } else {
+                    format!(
+                        "write \"{}\", \"everything\", \"nothing\", or a list of ids",
+                        rule.default
+                    )
+                };
+                self.reader.wrong(
+                    node,
+                    format!("{} has `{}` = {}", draft.name, rule.key, quoted(word)),
+                    remedy,
+                );
+                None
+            }
+            Value::List(elements) => {
+                let picks: Vec<Option<Pick>> = elements
+                    .iter()
+                    .map(|&element| self.pick(element, context))
+                    .collect();
+                Some(Selector::Only(picks.into_iter().collect::<Option<_>>()?))
+            }
+            _ => {
+                let found = self.reader.tree.describe(node);
+                self.reader.wrong(
+                    node,
+                    format!(
+                        "expected a selector for `{}` of {}, found {found}",
+                        rule.key, draft.name
+                    ),
+                    format!(
+                        "write \"{}\", \"nothing\", or a list as [\"some-id\", {{ level = 2 }}]",
+                        rule.default
+                    ),
+                );
+                None
+            }
+        }
+    }
+
+    fn pick(&mut self, node: NodeId, context: &Context<'_>) -> Option<Pick> {
+        match self.reader.tree.value(node) {
+            Value::Text(id) => self.pick_id(node, id, context),
+            Value::Table(_) => self.pick_table(node, context),
+            _ => {
+                let found = self.reader.tree.describe(node);
+                self.reader.wrong(
+                    node,
+                    format!("expected the id of a feature, found {found}"),
+                    "write an id in quotes, or { kind = … }, { level = … }, { facies = … }",
+                );
+                None
+            }
+        }
+    }
+
+    fn pick_table(&mut self, node: NodeId, context: &Context<'_>) -> Option<Pick> {
+        let before = self.reader.found();
+        let file: PickFile = self.reader.table(node)?;
+        self.reader.close(node, "this selector");
+        (self.reader.found() == before).then_some(())?;
+        let id = file.id.and_then(Field::good);
+        let kind = file.kind.and_then(Field::good);
+        let level = file.level.and_then(Field::good);
+        let facies = file.facies.and_then(Field::good);
+        match (id, kind, level, facies) {
+            (Some((at, id)), None, None, None) => self.pick_id(at, &id, context),
+            (None, Some((at, kind)), None, None) => {
+                self.known_kind(at, &kind).then_some(Pick::Kind(kind))
+            }
+            (None, None, Some((at, level)), None) => self.level(at, level).map(Pick::Level),
+            (None, None, None, Some((at, name))) => self
+                .known_facies(at, &name, context.facies)
+                .map(|_| Pick::Facies(name)),
+            _ => {
+                self.reader.wrong(
+                    node,
+                    "a selector has exactly one of `id`, `kind`, `level`, `facies`",
+                    "write one table for each: [{ kind = \"channel\" }, { level = 2 }]",
+                );
+                None
+            }
+        }
+    }
+
+    fn pick_id(&mut self, node: NodeId, id: &str, context: &Context<'_>) -> Option<Pick> {
+        let Rule { key, .. } = context.rule;
+        if id == "background" {
+            if context.rule.key == REMOVED_BY.key {
+                self.note(
+                    node,
+                    "the background removes nothing, so this has no effect",
+                );
+            }
+            return Some(Pick::Id(id.to_owned()));
+        }
+        let find = |draft: &Draft| draft.id.as_ref().is_some_and(|(_, known)| known == id);
+        let Some(target) = context.drafts.iter().position(find) else {
+            let mut known = ids(context.drafts);
+            known.push("background");
+            self.reader.wrong(
+                node,
+                format!("`{key}` names {}, which is not a feature", quoted(id)),
+                suggest::name(id, &known, "features"),
+            );
+            return None;
+        };
+        let younger = target > context.index;
+        let backwards = if context.rule.key == REMOVES.key {
+            younger
+        } else {
+            target < context.index
+        };
+        if !context.drafts[target].enabled {
+            self.note(node, format!("`{key}` names `{id}`, which is disabled"));
+        } else if backwards {
+            let age = if younger { "younger" } else { "older" };
+            self.note(
+                node,
+                format!("`{key}` names `{id}`, which is {age}, so this has no effect"),
+            );
+        }
+        Some(Pick::Id(id.to_owned()))
+    }
+}

@@ -1,0 +1,281 @@
+//! What is wrong with a model file: every defect with its place, the line it stands in, and the remedy.
+
+use std::fmt;
+use std::sync::Arc;
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use serde_json::json;
+
+use super::spec::Place;
+
+/// More defects than this are counted but not listed: nobody reads them, and a broken generator can make millions.
+const MOST_LISTED: usize = 200;
+/// Lines longer than this are cut around the defect, in bytes.
+const LONGEST_LINE: usize = 240;
+
+/// A range of bytes in one of the texts that a model is read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Span {
+    pub(crate) text: usize,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+}
+
+impl Span {
+    pub(crate) fn new(text: usize, start: usize, end: usize) -> Self {
+        Self { text, start, end }
+    }
+}
+
+/// A text with a name: the model file, or an override.
+#[derive(Debug)]
+pub(crate) struct Text {
+    pub(crate) name: String,
+    pub(crate) text: String,
+}
+
+impl Text {
+    /// Where the byte `offset` stands.
+    pub(crate) fn place(&self, offset: usize) -> Place {
+        let before = &self.text[..floor_boundary(&self.text, offset)];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        Place {
+            file: self.name.clone(),
+            line: before.bytes().filter(|&b| b == b'\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+        }
+    }
+}
+
+fn floor_boundary(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+/// One thing that is wrong.
+#[derive(Clone, Debug)]
+pub struct Defect {
+    span: Span,
+    message: String,
+    remedy: String,
+    related: Option<(Span, String)>,
+    place: Place,
+}
+
+impl Defect {
+    pub(crate) fn new(span: Span, message: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self {
+            span,
+            message: message.into(),
+            remedy: remedy.into(),
+            related: None,
+            place: Place::default(),
+        }
+    }
+
+    pub(crate) fn with_related(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.related = Some((span, label.into()));
+        self
+    }
+
+    /// What is wrong.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to do about it.
+    pub fn remedy(&self) -> &str {
+        &self.remedy
+    }
+
+    /// Where it stands.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+}
+
+/// Everything that is wrong with a model, in the order of the file.
+#[derive(Clone, Debug)]
+pub struct Defects {
+    texts: Arc<Vec<Text>>,
+    listed: Vec<Defect>,
+    unlisted: usize,
+}
+
+impl std::error::Error for Defects {}
+
+impl fmt::Display for Defects {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl Defects {
+    pub(crate) fn new(texts: Arc<Vec<Text>>, mut defects: Vec<Defect>, unlisted: usize) -> Self {
+        defects.sort_by_key(|defect| defect.span);
+        for defect in &mut defects {
+            defect.place = texts
+                .get(defect.span.text)
+                .map(|text| text.place(defect.span.start))
+                .unwrap_or_default();
+        }
+        Self {
+            texts,
+            listed: defects,
+            unlisted,
+        }
+    }
+
+    /// The defects, in the order of the file.
+    pub fn iter(&self) -> std::slice::Iter<'_, Defect> {
+        self.listed.iter()
+    }
+
+    /// How many there are, also those beyond the first two hundred, which are not listed.
+    pub fn count(&self) -> usize {
+        self.listed.len() + self.unlisted
+    }
+
+    /// All of it for a reader: with colours for a terminal, or plain.
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color {
+            Renderer::styled().decor_style(DecorStyle::Unicode)
+        } else {
+            Renderer::plain().decor_style(DecorStyle::Ascii)
+        };
+        let mut out = String::new();
+        for defect in &self.listed {
+            out.push_str(&self.render_one(&renderer, defect));
+            out.push_str("\n\n");
+        }
+        let count = self.count();
+        let file = self.texts.first().map_or("", |text| text.name.as_str());
+        let plural = if count == 1 { "defect" } else { "defects" };
+        out.push_str(&format!("{file}: {count} {plural}"));
+        if self.unlisted > 0 {
+            out.push_str(&format!(", the first {} listed", self.listed.len()));
+        }
+        out.push('\n');
+        out
+    }
+
+    fn render_one(&self, renderer: &Renderer, defect: &Defect) -> String {
+        let mut group = Level::ERROR
+            .primary_title(defect.message.as_str())
+            .element(self.snippet(defect.span, AnnotationKind::Primary, None));
+        if let Some((span, label)) = &defect.related {
+            group = group.element(self.snippet(*span, AnnotationKind::Context, Some(label)));
+        }
+        group = group.element(Level::HELP.message(defect.remedy.as_str()));
+        renderer.render(&[group])
+    }
+
+    fn snippet<'a>(
+        &'a self,
+        span: Span,
+        kind: AnnotationKind,
+        label: Option<&'a str>,
+    ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
+        let (name, excerpt) = match self.texts.get(span.text) {
+            Some(text) => (text.name.as_str(), Excerpt::of(&text.text, span)),
+            None => ("", Excerpt::default()),
+        };
+        Snippet::source(excerpt.text)
+            .path(name)
+            .line_start(excerpt.line)
+            .annotation(kind.span(excerpt.start..excerpt.end).label(label))
+    }
+
+    /// The same for machines: an object with a list of defects, each with file, line, column, message, remedy and the line itself.
+    pub fn to_json(&self) -> serde_json::Value {
+        let list: Vec<_> = self
+            .listed
+            .iter()
+            .map(|defect| {
+                let text = &self.texts.get(defect.span.text);
+                let end = text.map(|t| t.place(defect.span.end)).unwrap_or_default();
+                let snippet = text.map(|t| Excerpt::of(&t.text, defect.span).text);
+                json!({
+                    "file": defect.place.file,
+                    "line": defect.place.line,
+                    "column": defect.place.column,
+                    "end_line": end.line,
+                    "end_column": end.column,
+                    "message": defect.message,
+                    "remedy": defect.remedy,
+                    "snippet": snippet.unwrap_or_default(),
+                })
+            })
+            .collect();
+        json!({ "count": self.count(), "defects": list })
+    }
+}
+
+/// The line of a defect, cut where it is long.
+#[derive(Default)]
+struct Excerpt<'a> {
+    text: &'a str,
+    /// Line number of its start, from 1.
+    line: usize,
+    /// The defect within it.
+    start: usize,
+    end: usize,
+}
+
+impl<'a> Excerpt<'a> {
+    fn of(text: &'a str, span: Span) -> Self {
+        let start = floor_boundary(text, span.start);
+        let mut end = floor_boundary(text, span.end.max(span.start));
+        let line_start = text[..start].rfind('\n').map_or(0, |i| i + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
+        end = end.min(line_end);
+        let mut from = line_start;
+        let mut to = line_end;
+        if to - from > LONGEST_LINE {
+            from = floor_boundary(text, from.max(start.saturating_sub(LONGEST_LINE / 3)));
+            to = floor_boundary(text, to.min(from + LONGEST_LINE));
+            end = end.min(to);
+        }
+        let shown = text[from..to].trim_end_matches('\r');
+        Self {
+            text: shown,
+            line: text[..start].bytes().filter(|&b| b == b'\n').count() + 1,
+            start: (start - from).min(shown.len()),
+            end: (end.max(start) - from).min(shown.len()),
+        }
+    }
+}
+
+/// Gathers defects up to a number worth listing.
+#[derive(Debug, Default)]
+pub(crate) struct Collector {
+    listed: Vec<Defect>,
+    unlisted: usize,
+}
+
+impl Collector {
+    pub(crate) fn add(&mut self, defect: Defect) {
+        if self.is_full() {
+            self.unlisted += 1;
+        } else {
+            self.listed.push(defect);
+        }
+    }
+
+    /// Whether further defects are only counted.
+    pub(crate) fn is_full(&self) -> bool {
+        self.listed.len() >= MOST_LISTED
+    }
+
+    /// `value` if nothing is wrong, else the defects.
+    pub(crate) fn finish<T>(self, texts: Arc<Vec<Text>>, value: Option<T>) -> Result<T, Defects> {
+        match value {
+            Some(value) if self.listed.is_empty() => Ok(value),
+            _ => Err(Defects::new(texts, self.listed, self.unlisted)),
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! The checked model: what the program works with once a model file has been read.
+//!
+//! Lengths are metres, z points up, x east, y north. References between facies and features are indices into the model's
+//! own lists, so they cannot dangle.
+
+use super::expression::Expression;
+use super::profile::Profile;
+use super::quantity::Quantity;
+
+/// A checked model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// What the model is called.
+    pub name: String,
+    /// A sentence or two about it.
+    pub description: Option<String>,
+    /// The seed of all draws.
+    pub seed: u64,
+    /// Where the local origin lies in the world: recorded, never added to the coordinates.
+    pub origin: [f64; 3],
+    /// The block that is modelled.
+    pub domain: Domain,
+    /// The facies, in file order.
+    pub facies: Vec<Facies>,
+    /// The features from oldest to youngest, in file order.
+    pub features: Vec<Feature>,
+    /// What is worth saying about the file although it is right.
+    pub notes: Vec<Note>,
+}
+
+/// The modelled block; its volume before any feature is called `background`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Domain {
+    /// West and east limits.
+    pub x: [f64; 2],
+    /// South and north limits.
+    pub y: [f64; 2],
+    /// Base and top.
+    pub z: [f64; 2],
+    /// Index of the background's facies.
+    pub facies: usize,
+}
+
+impl Domain {
+    /// Extents in x, y and z.
+    pub fn size(&self) -> [f64; 3] {
+        [self.x, self.y, self.z].map(|[lo, hi]| hi - lo)
+    }
+}
+
+/// A colour of 8 bits a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rgb {
+    /// Red.
+    pub r: u8,
+    /// Green.
+    pub g: u8,
+    /// Blue.
+    pub b: u8,
+}
+
+/// A kind of rock, with its colour and properties.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facies {
+    /// Its id.
+    pub name: String,
+    /// Its colour in pictures and files.
+    pub color: Rgb,
+    /// A sentence about it.
+    pub description: Option<String>,
+    /// Whether it counts as net (reservoir) rock; unknown if not said.
+    pub net: Option<bool>,
+    /// Porosity (a fraction), permeability (mD; x, y, z) and any other number, in file order.
+    pub properties: Vec<(String, Property)>,
+}
+
+/// The value of a rock property.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Property {
+    /// One number.
+    Scalar(f64),
+    /// One number for each of x, y and z.
+    Vector([f64; 3]),
+}
+
+/// One entry of the feature list: one geological thing, or `count` alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feature {
+    /// Its id, unique in the model.
+    pub id: String,
+    /// What it is.
+    pub kind: FeatureKind,
+    /// Whether it takes part.
+    pub enabled: bool,
+    /// How many instances are made (per instance of the parent).
+    pub count: usize,
+    /// Hierarchical level, 1 = largest.
+    pub level: u32,
+    /// Index of the parent.
+    pub parent: Option<usize>,
+    /// Index of the facies of what it bounds.
+    pub facies: usize,
+    /// What it may remove.
+    pub removes: Selector,
+    /// What may remove it.
+    pub removed_by: Selector,
+    /// Whether it removes nothing but its parent and the background.
+    pub preserve: bool,
+    /// Where the file defines it.
+    pub place: Place,
+}
+
+/// What a feature is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FeatureKind {
+    /// A channel along a trajectory.
+    Channel(ChannelSpec),
+}
+
+impl FeatureKind {
+    /// The kinds' names, as the model file writes them.
+    pub const NAMES: [&'static str; 1] = ["channel"];
+
+    /// The kind's name, as the model file writes it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Channel(_) => "channel",
+        }
+    }
+}
+
+/// Which features a rule speaks of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Selector {
+    /// All of them.
+    Everything,
+    /// What any of the picks admits; none if the list is empty.
+    Only(Vec<Pick>),
+}
+
+/// One entry of a [`Selector`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Pick {
+    /// The feature with this id, or `background`.
+    Id(String),
+    /// Every feature of this kind.
+    Kind(String),
+    /// Every feature of this level.
+    Level(u32),
+    /// Everything of this facies.
+    Facies(String),
+}
+
+/// A channel: a section carried along a trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelSpec {
+    /// Width of the top.
+    pub width: Profile,
+    /// Depth of the thalweg below the top.
+    pub depth: Profile,
+    /// Offset of the thalweg to the right of the centre, as a fraction of the width, in (−0.5, 0.5).
+    pub asymmetry: Profile,
+    /// Angle of the left bank (looking down the trajectory) below the horizontal, degrees; chosen by the section if absent.
+    pub left_angle_deg: Option<Profile>,
+    /// Angle of the right bank below the horizontal, degrees; chosen by the section if absent.
+    pub right_angle_deg: Option<Profile>,
+    /// Elevation of the top; uniform between the base + depth and the top of the domain if absent.
+    pub top: Option<Profile>,
+    /// Which point of the section follows the trajectory.
+    pub origin: SectionOrigin,
+    /// The way that the channel takes.
+    pub trajectory: TrajectorySpec,
+    /// A new section is set where the direction has turned by more than this, degrees.
+    pub angle_limit_deg: f64,
+    /// How far the thalweg and the rims may lie from where they belong, as a fraction of the width.
+    pub tolerance_fraction: f64,
+}
+
+/// Which point of a section follows the trajectory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SectionOrigin {
+    /// The deepest point.
+    Thalweg,
+    /// The middle of the top.
+    TopCentre,
+}
+
+/// The way that a feature takes, in plan.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TrajectorySpec {
+    /// A straight line between two points.
+    Line {
+        /// Start.
+        from: [Quantity; 2],
+        /// End.
+        to: [Quantity; 2],
+    },
+    /// A straight line in a direction.
+    Heading {
+        /// Direction, clockwise from north, degrees.
+        azimuth_deg: Quantity,
+        /// A point of the line, its middle if a length is given; uniform over the domain if absent.
+        center: Option<[Quantity; 2]>,
+        /// Length; right across the domain if absent.
+        length: Option<Quantity>,
+    },
+    /// A curve through points.
+    Points {
+        /// The points, in order, no two neighbours alike.
+        points: Vec<[f64; 2]>,
+        /// How the curve's parameter is spread over the points.
+        parametrization: Parametrization,
+        /// Degree of the curve, below the number of points.
+        degree: usize,
+    },
+    /// A sine-generated (meandering) curve.
+    SineGenerated {
+        /// Half of peak to peak across the mean direction.
+        amplitude: Quantity,
+        /// Length of one meander along the mean direction.
+        wavelength: Quantity,
+        /// Mean direction, clockwise from north, degrees.
+        azimuth_deg: Quantity,
+        /// Middle of the curve; uniform over the domain if absent.
+        center: Option<[Quantity; 2]>,
+        /// Where the curve is in its meander at the centre, as a fraction of a wavelength.
+        phase: Option<Quantity>,
+        /// Length along the mean direction; right across the domain if absent.
+        length: Option<Quantity>,
+    },
+    /// Two formulas in `t`.
+    Parametric {
+        /// x of t.
+        x: Expression,
+        /// y of t.
+        y: Expression,
+        /// From which t to which.
+        range: [f64; 2],
+    },
+}
+
+/// How the parameter of an interpolating curve is spread over its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parametrization {
+    /// In proportion to the distance between the points.
+    ChordLength,
+    /// In proportion to the square root of that distance.
+    Centripetal,
+}
+
+/// Where something stands in a text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// The file, or the argument.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}:{}:{}", self.file, self.line, self.column)
+    }
+}
+
+/// Something worth saying about a file that is right.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// What.
+    pub message: String,
+    /// Where.
+    pub place: Place,
+}
