@@ -1,5 +1,8 @@
 //! Surface-based geological reservoir modelling without a grid.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "occt")]
+pub mod assembly;
 pub mod features;
+pub mod model;
 pub mod nurbs;

@@ -11,6 +11,7 @@ use crate::shape::Shape;
 const MAX_DEGREE: usize = 25;
 
 /// Tables of vertices, curves, surfaces, edges and faces that refer to each other by index.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Topology {
     /// Points, metres.
@@ -28,6 +29,7 @@ pub struct Topology {
 }
 
 /// A curve in space.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Curve {
     /// `start + t (end - start)`, t in 0..1.
@@ -51,6 +53,7 @@ pub enum Curve {
 }
 
 /// A surface.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
     /// An unbounded plane.
@@ -80,6 +83,7 @@ pub enum Surface {
 }
 
 /// A piece of a curve between two vertices.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
     /// Index of its curve.
@@ -93,6 +97,7 @@ pub struct Edge {
 }
 
 /// A piece of a surface, bounded by loops.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
     /// Index of its surface.
@@ -104,6 +109,7 @@ pub struct Face {
 }
 
 /// An edge of a loop.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct EdgeUse {
     /// Index of the edge.
@@ -115,6 +121,7 @@ pub struct EdgeUse {
 }
 
 /// A curve in the parameters of a surface.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Pcurve {
     /// `origin + t direction`, t being the edge's parameter.

@@ -8,14 +8,20 @@
 
 mod check;
 mod defects;
+mod draws;
 mod expression;
 mod file;
 mod json_text;
 mod overrides;
+pub mod owner;
+pub mod plan;
 mod profile;
 mod quantity;
 mod read;
+pub mod realisation;
+pub mod rules;
 mod schema;
+pub mod selection;
 mod source;
 mod spec;
 mod stream;
@@ -25,7 +31,7 @@ mod tree;
 
 pub use defects::{Defect, Defects};
 pub use expression::{EvaluationError, Expression, ExpressionError, FUNCTIONS};
-pub use profile::{Course, Profile};
+pub use profile::Profile;
 pub use quantity::{
     Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS, Quantity,
 };

@@ -18,19 +18,19 @@ const KEY_VERSION: &[u8] = b"clinothem stream 1";
 pub struct Stream(ChaCha8Rng);
 
 impl Stream {
-    /// The stream of `parameter` (a path, as `trajectory.amplitude`) of instance number `instance` of `feature`.
+    /// The stream of `parameter` (a path, as `trajectory.amplitude`) of one instance of `feature`, whose number is written
+    /// with those of its ancestors (`7.2`: the second inside the seventh).
     ///
     /// `attempt` counts the redraws of an impossible instance, from 0.
-    pub fn new(seed: u64, feature: &str, instance: usize, parameter: &str, attempt: usize) -> Self {
+    pub fn new(seed: u64, feature: &str, instance: &str, parameter: &str, attempt: u32) -> Self {
         let mut key = Sha256::new();
         key.update(KEY_VERSION);
         key.update(seed.to_le_bytes());
-        for text in [feature, parameter] {
+        for text in [feature, instance, parameter] {
             key.update((text.len() as u64).to_le_bytes());
             key.update(text.as_bytes());
         }
-        key.update((instance as u64).to_le_bytes());
-        key.update((attempt as u64).to_le_bytes());
+        key.update(attempt.to_le_bytes());
         Self(ChaCha8Rng::from_seed(key.finalize().into()))
     }
 
@@ -51,8 +51,8 @@ impl Stream {
 mod tests {
     use super::Stream;
 
-    fn first(seed: u64, feature: &str, instance: usize, parameter: &str, attempt: usize) -> f64 {
-        Stream::new(seed, feature, instance, parameter, attempt).unit()
+    fn first(seed: u64, feature: &str, instance: usize, parameter: &str, attempt: u32) -> f64 {
+        Stream::new(seed, feature, &instance.to_string(), parameter, attempt).unit()
     }
 
     #[test]

@@ -1,0 +1,179 @@
+//! The only door to OpenCASCADE: everything else in this crate speaks of it through this file.
+
+use serde::{Deserialize, Serialize};
+
+pub use occt_bridge::Cancel;
+pub(crate) use occt_bridge::{
+    BridgeError, Classifier, Curve, Edge, EdgeUse, Face, FaceIntegral, FaceMesh, MeshOptions,
+    Pcurve, Position, Shape, Solids, StepDocument, StepNode, StepSchema, Surface, Threads,
+    Topology, bounds, compound, defects, face_integrals, face_samples, faces, set_threads,
+    triangulate_solids, version, write_brep, write_step_assembly, write_step_shared,
+};
+use occt_bridge::{PartitionOptions, box_solid, partition, solid};
+
+use super::labels::{self, LabelError, Side};
+use crate::model::plan::PlannedBody;
+use crate::model::rules::Rules;
+
+/// Everything one general fuse needs; plain data, so that another process can do it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct FuseJob {
+    /// The domain's corners.
+    pub(crate) domain: [[f64; 3]; 2],
+    /// What lies above each lid, as boxes larger than everything.
+    pub(crate) above_lids: Vec<[[f64; 3]; 2]>,
+    /// The bodies' shells.
+    pub(crate) shells: Vec<Topology>,
+    /// Volumes by shell and lid.
+    pub(crate) bodies: Vec<PlannedBody>,
+    /// Who holds what.
+    pub(crate) rules: Rules,
+    /// Worker threads; 0 = as many as the machine has.
+    pub(crate) threads: usize,
+    /// Extra tolerance of contacts (m).
+    pub(crate) fuzzy: Option<f64>,
+}
+
+/// What the fuse says besides its solids.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct FuseReport {
+    /// Cells before those of one owner were merged.
+    pub(crate) cells: usize,
+    /// Pairs of faces that cross.
+    pub(crate) crossing_faces: usize,
+    /// Pairs of shells that cross (by index into the job's shells).
+    pub(crate) crossing_shells: Vec<(usize, usize)>,
+    /// The kernel's warnings.
+    pub(crate) alerts: Vec<String>,
+}
+
+/// Why a fuse has no usable result.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
+pub(crate) enum FuseError {
+    /// Stopped on request.
+    #[error("cancelled")]
+    Cancelled,
+    /// The kernel refused a shell.
+    #[error("the kernel refuses the shell of {volume}: {message}")]
+    Shell { volume: usize, message: String },
+    /// The kernel failed or reported errors.
+    #[error("{0}")]
+    Kernel(String),
+    /// The kernel left faces over: it has lost volume.
+    #[error("the general fuse left faces unused, so volume is lost ({0})")]
+    UnusedFaces(String),
+    /// The cells contradict themselves.
+    #[error("the general fuse's cells contradict each other: {0}")]
+    Labels(String),
+}
+
+impl From<BridgeError> for FuseError {
+    fn from(error: BridgeError) -> Self {
+        match error {
+            BridgeError::Cancelled => Self::Cancelled,
+            other => Self::Kernel(other.to_string()),
+        }
+    }
+}
+
+impl From<LabelError> for FuseError {
+    fn from(error: LabelError) -> Self {
+        Self::Labels(error.to_string())
+    }
+}
+
+/// The arguments of the fuse come in this order: domain, lids, shells.
+const DOMAIN: usize = 0;
+
+/// Partitions everything, labels the cells by the rules and merges those of one owner.
+pub(crate) fn fuse(
+    job: &FuseJob,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<(Solids, FuseReport), FuseError> {
+    if job.threads > 0 {
+        set_threads(job.threads)?;
+    }
+    let arguments = arguments(job)?;
+    let options = PartitionOptions {
+        threads: Threads::All,
+        fuzzy: job.fuzzy,
+    };
+    let partition = partition(&arguments, &options, cancel, progress)?;
+    if partition.has_unused_faces() {
+        return Err(FuseError::UnusedFaces(partition.alerts().join("; ")));
+    }
+    let cells: Vec<labels::CellFaces> = partition
+        .cells()
+        .iter()
+        .map(|cell| cell.faces.clone())
+        .collect();
+    let sides: Vec<Side> = partition
+        .faces()
+        .iter()
+        .map(|face| Side {
+            origins: face
+                .origins
+                .iter()
+                .map(|o| (o.argument, o.same_orientation))
+                .collect(),
+        })
+        .collect();
+    let inside = labels::sides(&cells, &sides, arguments.len())?;
+    for (cell, (sides, told)) in inside.iter().zip(partition.cells()).enumerate() {
+        let differs = |argument: &usize| sides[*argument] != told.inside.contains(argument);
+        if let Some(argument) = (0..arguments.len()).find(differs) {
+            return Err(LabelError::SecondOpinion { cell, argument }.into());
+        }
+    }
+    let owners: Vec<Option<usize>> = inside.iter().map(|sides| owner(job, sides)).collect();
+    let solids = partition.merge(&owners)?;
+    let first_shell = 1 + job.above_lids.len();
+    let crossing_shells = partition
+        .crossing_arguments()
+        .iter()
+        .filter(|(a, b)| *a >= first_shell && *b >= first_shell)
+        .map(|(a, b)| (a - first_shell, b - first_shell))
+        .collect();
+    let report = FuseReport {
+        cells: partition.cells().len(),
+        crossing_faces: partition.interferences(),
+        crossing_shells,
+        alerts: partition.alerts().to_vec(),
+    };
+    Ok((solids, report))
+}
+
+/// The volume that holds a cell; `None` outside the domain.
+fn owner(job: &FuseJob, inside: &[bool]) -> Option<usize> {
+    let (lids, shells) = inside[DOMAIN + 1..].split_at(job.above_lids.len());
+    let holds = |volume: usize| {
+        job.bodies
+            .binary_search_by_key(&volume, |body| body.volume)
+            .is_ok_and(|at| {
+                let body = &job.bodies[at];
+                shells[body.shell] && !body.lid.is_some_and(|lid| lids[lid])
+            })
+    };
+    inside[DOMAIN].then(|| job.rules.owner(holds))
+}
+
+fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
+    let mut arguments = vec![box_solid(job.domain[0], job.domain[1])?];
+    for [low, high] in &job.above_lids {
+        arguments.push(box_solid(*low, *high)?);
+    }
+    for (shell, topology) in job.shells.iter().enumerate() {
+        let volume = job
+            .bodies
+            .iter()
+            .find(|body| body.shell == shell)
+            .map_or(0, |body| body.volume);
+        let made = solid(topology).map_err(|error| FuseError::Shell {
+            volume,
+            message: error.to_string(),
+        })?;
+        arguments.push(made);
+    }
+    Ok(arguments)
+}

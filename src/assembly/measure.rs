@@ -1,0 +1,120 @@
+//! Measures of assembled solids: volumes, areas, neighbours, from one integral per face.
+//!
+//! Both solids that share a face use the same integral with opposite signs, so volumes cost nothing
+//! beyond the faces themselves.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::kernel::{BridgeError, FaceIntegral, Solids, Threads, bounds, face_integrals};
+use crate::model::plan::AssemblyPlan;
+
+/// Relative error asked of the integrals of area and flux of each face.
+const EPS: f64 = 1e-8;
+
+/// A solid: one connected piece of a volume.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The volume that it belongs to.
+    pub volume: usize,
+    /// Its index among the kernel's solids.
+    pub solid: usize,
+    /// Its volume (m³).
+    pub size: f64,
+    /// The corners of its box (m).
+    pub bounds: (DVec3, DVec3),
+}
+
+/// Volumes, areas and neighbours of an assembly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// All solids by volume, and within a volume largest first, equals by the middle of their boxes.
+    pub pieces: Vec<Piece>,
+    /// Area shared by pairs of volumes, the smaller index first (m²).
+    pub contacts: BTreeMap<(usize, usize), f64>,
+    /// Area on the domain's boundary by volume (m²).
+    pub outer: BTreeMap<usize, f64>,
+    /// Largest tolerance of any face, edge or vertex (m).
+    pub tolerance: f64,
+    /// Area of all faces, each once (m²).
+    pub area: f64,
+    /// Number of faces.
+    pub faces: usize,
+    /// Number of edges.
+    pub edges: usize,
+}
+
+impl Measured {
+    pub(super) fn new(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
+        let middle = (plan.low + plan.high) / 2.0;
+        let integrals = face_integrals(solids, EPS, middle.to_array(), Threads::All)?;
+        let mut contacts = BTreeMap::new();
+        let mut outer = BTreeMap::new();
+        for (face, integral) in solids.faces().iter().zip(&integrals) {
+            let owner = |solid: usize| solids.solids()[solid].owner;
+            match face.solids[..] {
+                [one] => *outer.entry(owner(one)).or_insert(0.0) += integral.area,
+                [a, b] => {
+                    let pair = (owner(a).min(owner(b)), owner(a).max(owner(b)));
+                    *contacts.entry(pair).or_insert(0.0) += integral.area;
+                }
+                // Anything else is no solid model: the proof counts it.
+                _ => {}
+            }
+        }
+        Ok(Self {
+            pieces: pieces(solids, &integrals)?,
+            contacts,
+            outer,
+            tolerance: integrals
+                .iter()
+                .map(|face| face.tolerance)
+                .fold(0.0, f64::max),
+            area: integrals.iter().map(|face| face.area).sum(),
+            faces: integrals.len(),
+            edges: solids.edge_count()?,
+        })
+    }
+
+    /// The solids of a volume, largest first.
+    pub fn pieces_of(&self, volume: usize) -> &[Piece] {
+        let from = self.pieces.partition_point(|piece| piece.volume < volume);
+        let to = self.pieces.partition_point(|piece| piece.volume <= volume);
+        &self.pieces[from..to]
+    }
+
+    /// The volume of all pieces of a volume (m³).
+    pub fn size_of(&self, volume: usize) -> f64 {
+        self.pieces_of(volume).iter().map(|piece| piece.size).sum()
+    }
+}
+
+fn pieces(solids: &Solids, integrals: &[FaceIntegral]) -> Result<Vec<Piece>, BridgeError> {
+    let mut pieces = Vec::with_capacity(solids.solids().len());
+    for (index, solid) in solids.solids().iter().enumerate() {
+        let signed = |(face, reversed): &(usize, bool)| {
+            let flux = integrals[*face].flux;
+            if *reversed { -flux } else { flux }
+        };
+        let found = bounds(&solids.shape_of(index)?)?;
+        pieces.push(Piece {
+            volume: solid.owner,
+            solid: index,
+            size: solid.faces.iter().map(signed).sum(),
+            bounds: (DVec3::from_array(found.min), DVec3::from_array(found.max)),
+        });
+    }
+    pieces.sort_by(|a, b| {
+        let middle = |piece: &Piece| (piece.bounds.0 + piece.bounds.1).to_array();
+        a.volume
+            .cmp(&b.volume)
+            .then(b.size.total_cmp(&a.size))
+            .then_with(|| {
+                middle(a)
+                    .partial_cmp(&middle(b))
+                    .unwrap_or(std::cmp::Ordering::Equal)
+            })
+    });
+    Ok(pieces)
+}

@@ -1,0 +1,460 @@
+//! The proof that an assembly is right, made in every run.
+//!
+//! None of it trusts the kernel's own word: volumes are integrals, sides are topology, owners are the
+//! point evaluator's. A general fuse can lose nine tenths of a model with every solid valid; the volume
+//! sum, the faces without a neighbour and the owners all find it.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::Options;
+use super::kernel::{
+    BridgeError, Cancel, Classifier, Position, Solids, Threads, defects, face_samples,
+};
+use super::measure::Measured;
+use crate::model::Stream;
+use crate::model::owner::Owners;
+use crate::model::plan::{AssemblyPlan, net_bounds};
+use crate::model::rules::BACKGROUND;
+
+/// The model's tolerance: what shells are built to (m).
+const TOLERANCE: f64 = super::shapes::EXACT;
+/// The domain's argument among the kernel's arguments.
+const DOMAIN: usize = 0;
+/// Points beside faces: both sides of at least this many samples.
+const BESIDE_FACES: usize = 250;
+/// Sample points for each volume's integral of `owner`.
+const PER_VOLUME: usize = 400;
+/// Sample points all over the domain.
+const OVERALL: usize = 4000;
+/// Probability that an integral of `owner` misses a right volume by more than its bound.
+const DOUBT: f64 = 1e-9;
+
+/// How thorough the proof is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Level {
+    /// In every run: 100 points classified in the kernel's solids.
+    #[default]
+    Fast,
+    /// 500 of them.
+    Full,
+}
+
+impl Level {
+    fn classified(self) -> usize {
+        match self {
+            Self::Fast => 100,
+            Self::Full => 500,
+        }
+    }
+}
+
+/// One statement of the proof.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Check {
+    /// What is checked.
+    pub name: &'static str,
+    /// What was found.
+    pub measured: f64,
+    /// The most that is allowed.
+    pub bound: f64,
+    /// In words: over what, and what failed.
+    pub detail: String,
+}
+
+impl Check {
+    /// Whether the statement holds; what is not a number does not.
+    pub fn holds(&self) -> bool {
+        self.measured <= self.bound
+    }
+}
+
+/// All statements.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Proof {
+    /// The statements, in the order of their making.
+    pub checks: Vec<Check>,
+}
+
+impl Proof {
+    /// Whether every statement holds.
+    pub fn holds(&self) -> bool {
+        self.checks.iter().all(Check::holds)
+    }
+
+    /// The statements that do not hold, in words.
+    pub fn failures(&self) -> String {
+        let failed = self.checks.iter().filter(|check| !check.holds());
+        let words = |check: &Check| {
+            format!(
+                "{}: {:.6e} is above {:.6e} ({})",
+                check.name, check.measured, check.bound, check.detail
+            )
+        };
+        failed.map(words).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// Why the proof could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ProofError {
+    /// Stopped on request.
+    #[error("stopped on request")]
+    Cancelled,
+    /// The kernel failed.
+    #[error("the proof could not be made: {0}")]
+    Kernel(String),
+}
+
+impl From<BridgeError> for ProofError {
+    fn from(error: BridgeError) -> Self {
+        Self::Kernel(error.to_string())
+    }
+}
+
+struct Prover<'a> {
+    solids: &'a Solids,
+    measured: &'a Measured,
+    plan: &'a AssemblyPlan,
+    owners: &'a Owners,
+    options: &'a Options,
+}
+
+/// Makes the proof.
+pub(super) fn prove(
+    solids: &Solids,
+    measured: &Measured,
+    plan: &AssemblyPlan,
+    owners: &Owners,
+    options: &Options,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Proof, ProofError> {
+    let prover = Prover {
+        solids,
+        measured,
+        plan,
+        owners,
+        options,
+    };
+    let steps: [&dyn Fn() -> Result<Vec<Check>, ProofError>; 5] = [
+        &|| {
+            Ok(vec![
+                prover.volume_sum(),
+                prover.positive_volumes(),
+                prover.outer_area(),
+            ])
+        },
+        &|| Ok(vec![prover.sharing()]),
+        &|| Ok(vec![prover.validity()?]),
+        &|| prover.sampled_volumes(),
+        &|| Ok(vec![prover.beside_faces()?, prover.within_solids()?]),
+    ];
+    let mut checks = Vec::new();
+    for (i, step) in steps.iter().enumerate() {
+        if cancel.is_cancelled() {
+            return Err(ProofError::Cancelled);
+        }
+        progress(i as f64 / steps.len() as f64);
+        let made = step()?;
+        let broken = made.iter().any(|check| !check.holds());
+        checks.extend(made);
+        if broken {
+            break;
+        }
+    }
+    progress(1.0);
+    Ok(Proof { checks })
+}
+
+impl Prover<'_> {
+    fn name(&self, volume: usize) -> &str {
+        &self.plan.names[volume]
+    }
+
+    /// Volumes sum to the domain's.
+    fn volume_sum(&self) -> Check {
+        let size = self.plan.high - self.plan.low;
+        let domain = size.x * size.y * size.z;
+        let sum: f64 = self.measured.pieces.iter().map(|piece| piece.size).sum();
+        Check {
+            name: "volumes sum to the domain's (m³)",
+            measured: (sum - domain).abs(),
+            bound: 2.0 * TOLERANCE * self.measured.area,
+            detail: format!("{} solids", self.measured.pieces.len()),
+        }
+    }
+
+    /// No solid is inside out or empty.
+    fn positive_volumes(&self) -> Check {
+        let wrong: Vec<_> = self
+            .measured
+            .pieces
+            .iter()
+            .filter(|piece| !(piece.size > 0.0))
+            .collect();
+        let names: Vec<_> = wrong.iter().map(|piece| self.name(piece.volume)).collect();
+        Check {
+            name: "solids without a positive volume",
+            measured: wrong.len() as f64,
+            bound: 0.0,
+            detail: names.join(", "),
+        }
+    }
+
+    /// The faces that bound one solid are the domain's skin.
+    fn outer_area(&self) -> Check {
+        let size = self.plan.high - self.plan.low;
+        let skin = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+        let sum: f64 = self.measured.outer.values().sum();
+        Check {
+            name: "outer faces cover the domain's skin (m²)",
+            measured: (sum - skin).abs(),
+            bound: 1e-8 * skin,
+            detail: format!("{skin} m²"),
+        }
+    }
+
+    /// Every face inside the domain has a solid on each side; every other lies on the domain's skin.
+    fn sharing(&self) -> Check {
+        let mut wrong = Vec::new();
+        let mut sides = vec![[0_u32; 2]; self.solids.faces().len()];
+        for solid in self.solids.solids() {
+            for &(face, reversed) in &solid.faces {
+                sides[face][usize::from(reversed)] += 1;
+            }
+        }
+        for (face, sides) in self.solids.faces().iter().zip(&sides) {
+            let skin = face.origins.iter().any(|origin| origin.argument == DOMAIN);
+            let right = match sides {
+                [1, 1] => !skin,
+                [1, 0] | [0, 1] => skin,
+                _ => false,
+            };
+            if !right {
+                let owners = face
+                    .solids
+                    .iter()
+                    .map(|solid| self.name(self.solids.solids()[*solid].owner));
+                wrong.push(owners.collect::<Vec<_>>().join("/"));
+            }
+        }
+        let count = wrong.len();
+        wrong.truncate(8);
+        Check {
+            name: "faces that are not shared by exactly two solids",
+            measured: count as f64,
+            bound: 0.0,
+            detail: if wrong.is_empty() {
+                format!("{} faces", sides.len())
+            } else {
+                format!("of {}", wrong.join(", "))
+            },
+        }
+    }
+
+    /// The kernel's checker finds nothing.
+    fn validity(&self) -> Result<Check, ProofError> {
+        let found = defects(self.solids, Threads::All)?;
+        let words: Vec<String> = found
+            .iter()
+            .take(8)
+            .map(|defect| {
+                let owner = defect
+                    .solid
+                    .map_or("?", |s| self.name(self.solids.solids()[s].owner));
+                format!("{owner}: {}", defect.what)
+            })
+            .collect();
+        Ok(Check {
+            name: "invalid solids",
+            measured: found.len() as f64,
+            bound: 0.0,
+            detail: words.join("; "),
+        })
+    }
+
+    /// Each volume agrees with an integral of `owner`, and whatever owns a sampled point has a solid.
+    fn sampled_volumes(&self) -> Result<Vec<Check>, ProofError> {
+        let mut boxes = vec![(BACKGROUND, self.plan.low, self.plan.high, OVERALL)];
+        for body in &self.plan.bodies {
+            let (low, high) = net_bounds(self.plan.shells[body.shell].base().net());
+            let (low, high) = (low.max(self.plan.low), high.min(self.plan.high));
+            boxes.push((body.volume, low, high, PER_VOLUME));
+        }
+        let statements = boxes.len() as f64;
+        let results: Vec<(f64, f64, Vec<usize>)> = boxes
+            .par_iter()
+            .map(|&(volume, low, high, count)| {
+                let mut seen: Vec<usize> = self
+                    .points("volumes", volume, low, high)
+                    .take(count)
+                    .filter_map(|point| self.owners.at(point))
+                    .collect();
+                let hits = seen.iter().filter(|owner| **owner == volume).count();
+                seen.sort_unstable();
+                seen.dedup();
+                let size = (high - low).element_product();
+                let share = self.measured.size_of(volume) / size;
+                let miss = (hits as f64 / count as f64 - share).abs();
+                (miss, bernstein(share, count as f64, statements), seen)
+            })
+            .collect();
+        let worst = results
+            .iter()
+            .zip(&boxes)
+            .max_by(|a, b| (a.0.0 / a.0.1).total_cmp(&(b.0.0 / b.0.1)))
+            .map_or((0.0, BACKGROUND), |(result, sampled)| {
+                (result.0 / result.1, sampled.0)
+            });
+        let mut homeless: Vec<&str> = results
+            .iter()
+            .flat_map(|result| &result.2)
+            .filter(|owner| self.measured.pieces_of(**owner).is_empty())
+            .map(|owner| self.name(*owner))
+            .collect();
+        homeless.sort_unstable();
+        homeless.dedup();
+        let total: usize = boxes.iter().map(|sampled| sampled.3).sum();
+        Ok(vec![
+            Check {
+                name: "volumes agree with the integral of the point evaluator (miss / bound)",
+                measured: worst.0,
+                bound: 1.0,
+                detail: format!("{total} points, worst {}", self.name(worst.1)),
+            },
+            Check {
+                name: "owners of sampled points without a solid",
+                measured: homeless.len() as f64,
+                bound: 0.0,
+                detail: homeless.join(", "),
+            },
+        ])
+    }
+
+    /// Points 10 to 1000 tolerances beside faces belong to the solids on those sides.
+    fn beside_faces(&self) -> Result<Check, ProofError> {
+        let faces = self.solids.faces().len().max(1);
+        let samples = face_samples(self.solids, BESIDE_FACES.div_ceil(faces), Threads::All)?;
+        // [the face looks out of this owner's solid, it looks into this one's]
+        let mut sides = vec![[None; 2]; faces];
+        for solid in self.solids.solids() {
+            for &(face, reversed) in &solid.faces {
+                sides[face][usize::from(reversed)] = Some(solid.owner);
+            }
+        }
+        let wrong: Vec<String> = samples
+            .par_iter()
+            .enumerate()
+            .flat_map_iter(|(i, sample)| {
+                let (point, normal) = (
+                    DVec3::from_array(sample.point),
+                    DVec3::from_array(sample.normal),
+                );
+                let sides = &sides[sample.face];
+                // A golden-section sequence spreads the distances over the two decades.
+                let spread = (i as f64 * 0.618_033_988_749_895).fract();
+                let reach = TOLERANCE * 10_f64.powf(1.0 + 2.0 * spread);
+                [(-1.0, sides[0]), (1.0, sides[1])].into_iter().filter_map(
+                    move |(sign, expected)| {
+                        let agrees = |reach: f64| {
+                            self.owners.at(point + normal * (sign * reach)) == expected
+                        };
+                        // A face thinner than the distance has something else there: look nearer.
+                        let right = agrees(reach) || agrees(10.0 * TOLERANCE);
+                        (!right).then(|| {
+                            let name = expected.map_or("outside", |owner| self.name(owner));
+                            format!("{name} at {point:.4}")
+                        })
+                    },
+                )
+            })
+            .collect();
+        Ok(Check {
+            name: "points beside faces that belong elsewhere",
+            measured: wrong.len() as f64,
+            bound: 0.0,
+            detail: detail(2 * samples.len(), &wrong),
+        })
+    }
+
+    /// Points of every volume lie inside that volume's solids.
+    fn within_solids(&self) -> Result<Check, ProofError> {
+        let volumes = 1 + self.plan.bodies.len();
+        let each = self.options.proof.classified().div_ceil(volumes);
+        let mut wrong = Vec::new();
+        let mut count = 0;
+        for volume in 0..self.plan.names.len() {
+            let pieces = self.measured.pieces_of(volume);
+            if pieces.is_empty() {
+                continue;
+            }
+            let mut classifiers = Vec::with_capacity(pieces.len());
+            for piece in pieces {
+                classifiers.push((
+                    piece.bounds,
+                    Classifier::new(&self.solids.shape_of(piece.solid)?)?,
+                ));
+            }
+            let bounds = pieces.iter().fold(
+                (DVec3::INFINITY, DVec3::NEG_INFINITY),
+                |(low, high), piece| (low.min(piece.bounds.0), high.max(piece.bounds.1)),
+            );
+            let found: Vec<DVec3> = self
+                .points("solids", volume, bounds.0, bounds.1)
+                .take(200 * each)
+                .filter(|point| self.owners.at(*point) == Some(volume))
+                .take(each)
+                .collect();
+            for point in found {
+                count += 1;
+                let mut inside = false;
+                for ((low, high), classifier) in &mut classifiers {
+                    let near =
+                        point.cmpge(*low - TOLERANCE).all() && point.cmple(*high + TOLERANCE).all();
+                    inside |=
+                        near && classifier.contains(point.to_array(), TOLERANCE)? != Position::Out;
+                }
+                if !inside {
+                    wrong.push(format!("{} at {point:.4}", self.name(volume)));
+                }
+            }
+        }
+        Ok(Check {
+            name: "points of a volume that are not in its solids",
+            measured: wrong.len() as f64,
+            bound: 0.0,
+            detail: detail(count, &wrong),
+        })
+    }
+
+    /// An endless sequence of points in a box.
+    fn points(
+        &self,
+        purpose: &str,
+        volume: usize,
+        low: DVec3,
+        high: DVec3,
+    ) -> impl Iterator<Item = DVec3> {
+        let mut stream = Stream::new(self.options.seed, "proof", &volume.to_string(), purpose, 0);
+        std::iter::repeat_with(move || {
+            let unit = DVec3::new(stream.unit(), stream.unit(), stream.unit());
+            low + (high - low) * unit
+        })
+    }
+}
+
+fn detail(count: usize, wrong: &[String]) -> String {
+    let mut words = vec![format!("{count} points")];
+    words.extend(wrong.iter().take(5).cloned());
+    words.join(", ")
+}
+
+/// How far the share of hits may be from the true share, by Bernstein's inequality, so that all
+/// statements together are wrong with the probability [`DOUBT`].
+fn bernstein(share: f64, count: f64, statements: f64) -> f64 {
+    let doubt = (2.0 * statements / DOUBT).ln();
+    let third = doubt / (3.0 * count);
+    let share = share.clamp(0.0, 1.0);
+    third + (third * third + 2.0 * share * (1.0 - share) * doubt / count).sqrt()
+}

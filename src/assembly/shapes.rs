@@ -1,0 +1,338 @@
+//! Shells as the kernel's topology: shared vertices and edges, several faces on one surface.
+//!
+//! A trough's base and top are cut into a few faces along the trajectory (long faces are where the
+//! general fuse fails first), all on the same surface, with shared edges and exact straight pcurves.
+//! Where the trough runs far out of the domain its ends are left off, at sections, where it is flat.
+
+use glam::{DVec2, DVec3};
+
+use super::kernel::{Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology};
+use crate::features::body::Trough;
+use crate::nurbs;
+
+/// Topological tolerance of shells built from their own control nets (m).
+pub(crate) const EXACT: f64 = 1e-7;
+
+/// How a trough is cut for the kernel. None of it changes the shape inside the domain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cut {
+    /// Faces of base and top along the trajectory.
+    pub(crate) segments: usize,
+    /// Sections kept beyond the last one whose span meets the domain.
+    pub(crate) overshoot: usize,
+}
+
+/// The closed shell of a trough, its ends outside the box `low`–`high` left off.
+pub(crate) fn trough(trough: &Trough, low: DVec3, high: DVec3, cut: Cut) -> Topology {
+    let (first, last) = ends(trough, low, high, cut.overshoot);
+    let cuts = cuts(trough.base().knots_v(), first, last, cut.segments);
+    Builder::new(trough, &cuts).build()
+}
+
+/// The topology of one whole surface as a face, for files of surfaces.
+pub(crate) fn sheet(surface: &nurbs::Surface) -> Topology {
+    let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+    let corners = [(u0, v0), (u1, v0), (u1, v1), (u0, v1)];
+    let curves = vec![
+        curve(&surface.isocurve_v(v0)),
+        curve(&surface.isocurve_u(u1)),
+        curve(&surface.isocurve_v(v1)),
+        curve(&surface.isocurve_u(u0)),
+    ];
+    let edge = |curve, range: (f64, f64), start, end| Edge {
+        curve,
+        range: [range.0, range.1],
+        start,
+        end,
+    };
+    let edges = vec![
+        edge(0, (u0, u1), 0, 1),
+        edge(1, (v0, v1), 1, 2),
+        edge(2, (u0, u1), 3, 2),
+        edge(3, (v0, v1), 0, 3),
+    ];
+    let uses = vec![
+        along_u(0, v0, false),
+        along_v(1, u1, false),
+        along_u(2, v1, true),
+        along_v(3, u0, true),
+    ];
+    Topology {
+        vertices: corners
+            .iter()
+            .map(|(u, v)| surface.point(*u, *v).to_array())
+            .collect(),
+        curves,
+        surfaces: vec![spline(surface)],
+        edges,
+        faces: vec![Face {
+            surface: 0,
+            reversed: false,
+            loops: vec![uses],
+        }],
+        tolerance: EXACT,
+    }
+}
+
+/// The range of v that matters: from and to a section.
+fn ends(trough: &Trough, low: DVec3, high: DVec3, overshoot: usize) -> (f64, f64) {
+    let base = trough.base();
+    let (start, end) = base.knots_v().domain();
+    let knots = base.knots_v().as_slice();
+    let (p, nu, nv) = (
+        base.knots_v().degree(),
+        base.knots_u().count(),
+        base.knots_v().count(),
+    );
+    // A span of v lies in the hull of the p + 1 columns that influence it.
+    let meets = |span: &usize| {
+        let columns = span - p..=*span;
+        let points = columns.flat_map(|j| (0..nu).map(move |i| base.net()[i * nv + j]));
+        let (a, b) = points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(a, b), q| {
+            (a.min(q), b.max(q))
+        });
+        knots[*span] < knots[span + 1] && a.cmplt(high).all() && b.cmpgt(low).all()
+    };
+    let inside: Vec<usize> = (p..nv).filter(meets).collect();
+    let (Some(&first), Some(&last)) = (inside.first(), inside.last()) else {
+        return (start, end);
+    };
+    let sections = trough.sections();
+    let before = sections
+        .partition_point(|v| *v <= knots[first])
+        .saturating_sub(1 + overshoot);
+    let after =
+        (sections.partition_point(|v| *v < knots[last + 1]) + overshoot).min(sections.len() - 1);
+    (sections[before], sections[after])
+}
+
+/// Where the faces are cut: the two ends, and knots as evenly between as they lie.
+fn cuts(knots: &nurbs::KnotVector, first: f64, last: f64, segments: usize) -> Vec<f64> {
+    let between: Vec<f64> = knots
+        .distinct()
+        .iter()
+        .map(|k| k.0)
+        .filter(|v| *v > first && *v < last)
+        .collect();
+    let mut cuts = vec![first];
+    for k in 1..segments {
+        let even = first + (last - first) * k as f64 / segments as f64;
+        let nearest = between
+            .iter()
+            .copied()
+            .min_by(|a, b| (a - even).abs().total_cmp(&(b - even).abs()));
+        if let Some(v) = nearest.filter(|v| *v > cuts[cuts.len() - 1]) {
+            cuts.push(v);
+        }
+    }
+    cuts.push(last);
+    cuts
+}
+
+/// Lays out a trough's shell: per cut `k` two vertices, a section edge and a top edge; per segment two
+/// rim edges, a base face and a top face; two end faces.
+struct Builder<'a> {
+    trough: &'a Trough,
+    cuts: &'a [f64],
+    topology: Topology,
+}
+
+impl<'a> Builder<'a> {
+    fn new(trough: &'a Trough, cuts: &'a [f64]) -> Self {
+        let topology = Topology {
+            vertices: Vec::new(),
+            curves: Vec::new(),
+            surfaces: vec![spline(trough.base()), spline(trough.top())],
+            edges: Vec::new(),
+            faces: Vec::new(),
+            tolerance: EXACT,
+        };
+        Self {
+            trough,
+            cuts,
+            topology,
+        }
+    }
+
+    fn build(mut self) -> Topology {
+        self.edges();
+        self.long_faces();
+        self.end_faces();
+        self.topology
+    }
+
+    // Numbering of edges: sections 0..n, tops n..2n, left rims 2n.., right rims 2n + (n−1)...
+    fn section(k: usize) -> usize {
+        k
+    }
+    fn top_line(&self, k: usize) -> usize {
+        self.cuts.len() + k
+    }
+    fn rim(&self, side: usize, k: usize) -> usize {
+        2 * self.cuts.len() + side * (self.cuts.len() - 1) + k
+    }
+
+    fn edges(&mut self) {
+        let (base, rims) = (self.trough.base(), self.trough.rims());
+        let (u0, u1) = base.knots_u().domain();
+        let t = &mut self.topology;
+        t.curves.extend(rims.iter().map(curve));
+        for &v in self.cuts {
+            t.vertices
+                .extend(rims.iter().map(|rim| rim.point(v).to_array()));
+        }
+        for (k, &v) in self.cuts.iter().enumerate() {
+            t.curves.push(curve(&base.isocurve_v(v)));
+            t.edges.push(Edge {
+                curve: 2 + k,
+                range: [u0, u1],
+                start: 2 * k,
+                end: 2 * k + 1,
+            });
+        }
+        let (s0, s1) = self.trough.top().knots_u().domain();
+        for (k, &v) in self.cuts.iter().enumerate() {
+            t.curves.push(curve(&self.trough.top().isocurve_v(v)));
+            let curve = 2 + self.cuts.len() + k;
+            t.edges.push(Edge {
+                curve,
+                range: [s0, s1],
+                start: 2 * k,
+                end: 2 * k + 1,
+            });
+        }
+        for side in 0..2 {
+            for (k, v) in self.cuts.windows(2).enumerate() {
+                let (start, end) = (2 * k + side, 2 * k + 2 + side);
+                t.edges.push(Edge {
+                    curve: side,
+                    range: [v[0], v[1]],
+                    start,
+                    end,
+                });
+            }
+        }
+    }
+
+    /// Base and top of every segment. u runs to the right and v forwards, so both normals point up: the
+    /// base's outside is below it.
+    fn long_faces(&mut self) {
+        let sheets = [(self.trough.base(), true), (self.trough.top(), false)];
+        for (surface, (sheet, reversed)) in sheets.into_iter().enumerate() {
+            let (u0, u1) = sheet.knots_u().domain();
+            for (k, v) in self.cuts.windows(2).enumerate() {
+                let across = |k| {
+                    if surface == 0 {
+                        Self::section(k)
+                    } else {
+                        self.top_line(k)
+                    }
+                };
+                let uses = vec![
+                    along_u(across(k), v[0], false),
+                    along_v(self.rim(1, k), u1, false),
+                    along_u(across(k + 1), v[1], true),
+                    along_v(self.rim(0, k), u0, true),
+                ];
+                self.topology.faces.push(Face {
+                    surface,
+                    reversed,
+                    loops: vec![uses],
+                });
+            }
+        }
+    }
+
+    /// The flat, upright ends, bounded by a section and a top line.
+    fn end_faces(&mut self) {
+        let last = self.cuts.len() - 1;
+        for (k, backwards) in [(0, true), (last, false)] {
+            let corner = |side: usize| DVec3::from_array(self.topology.vertices[2 * k + side]);
+            let right = (corner(1) - corner(0)).normalize_or(DVec3::X);
+            let forward = DVec3::Z.cross(right);
+            let (normal, x_axis) = if backwards {
+                (-forward, right)
+            } else {
+                (forward, -right)
+            };
+            let origin = corner(0).to_array();
+            self.topology.surfaces.push(Surface::Plane {
+                origin,
+                normal: normal.to_array(),
+                x_axis: x_axis.to_array(),
+            });
+            let on_plane = |edge, reversed| EdgeUse {
+                edge,
+                reversed,
+                pcurve: None,
+            };
+            // Counterclockwise about the outward normal.
+            let uses = if backwards {
+                vec![
+                    on_plane(Self::section(k), false),
+                    on_plane(self.top_line(k), true),
+                ]
+            } else {
+                vec![
+                    on_plane(self.top_line(k), false),
+                    on_plane(Self::section(k), true),
+                ]
+            };
+            let surface = self.topology.surfaces.len() - 1;
+            self.topology.faces.push(Face {
+                surface,
+                reversed: false,
+                loops: vec![uses],
+            });
+        }
+    }
+}
+
+/// An edge on the isoparametric line at this v: its own parameter is u.
+fn along_u(edge: usize, v: f64, reversed: bool) -> EdgeUse {
+    line(edge, reversed, DVec2::new(0.0, v), DVec2::X)
+}
+
+/// An edge on the isoparametric line at this u: its own parameter is v.
+fn along_v(edge: usize, u: f64, reversed: bool) -> EdgeUse {
+    line(edge, reversed, DVec2::new(u, 0.0), DVec2::Y)
+}
+
+fn line(edge: usize, reversed: bool, origin: DVec2, direction: DVec2) -> EdgeUse {
+    let pcurve = Pcurve::Line {
+        origin: origin.to_array(),
+        direction: direction.to_array(),
+    };
+    EdgeUse {
+        edge,
+        reversed,
+        pcurve: Some(pcurve),
+    }
+}
+
+fn weights(weights: &[f64]) -> Option<Vec<f64>> {
+    weights
+        .iter()
+        .any(|weight| *weight != weights[0])
+        .then(|| weights.to_vec())
+}
+
+fn curve(curve: &nurbs::Curve) -> Curve {
+    Curve::BSpline {
+        degree: curve.knots().degree(),
+        knots: curve.knots().as_slice().to_vec(),
+        poles: curve.points().iter().map(DVec3::to_array).collect(),
+        weights: weights(curve.weights()),
+    }
+}
+
+fn spline(surface: &nurbs::Surface) -> Surface {
+    Surface::BSpline {
+        degree_u: surface.knots_u().degree(),
+        degree_v: surface.knots_v().degree(),
+        knots_u: surface.knots_u().as_slice().to_vec(),
+        knots_v: surface.knots_v().as_slice().to_vec(),
+        poles: surface.net().iter().map(DVec3::to_array).collect(),
+        weights: weights(surface.weights()),
+    }
+}

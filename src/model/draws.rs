@@ -1,0 +1,329 @@
+//! Draws: one attempt at one instance, from its quantities to its surfaces.
+
+use glam::DVec2;
+
+use super::expression::Expression;
+use super::profile::Profile as ProfileSpec;
+use super::quantity::{Distribution, Quantity};
+use super::spec::{self, ChannelSpec, Domain, SectionOrigin, TrajectorySpec};
+use super::stream::Stream;
+use crate::features::body::Trough;
+use crate::features::channel::{ChannelDesign, Origin};
+use crate::features::profile::Profile;
+use crate::features::trajectory::{SineGenerated, Trajectory, TrajectoryError, azimuth_vector};
+use crate::nurbs::interpolate::Parametrization;
+
+/// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
+/// two widths are added. Ends well outside leave the domain's walls to be crossed cleanly.
+const OVERSHOOT: f64 = 0.05;
+
+/// What identifies the draws of one attempt.
+#[derive(Clone, Copy, Debug)]
+pub struct Key<'a> {
+    /// The model's seed.
+    pub seed: u64,
+    /// The feature's id.
+    pub feature: &'a str,
+    /// Numbers of the instance and its ancestors.
+    pub instance: &'a str,
+    /// Attempt, from 0.
+    pub attempt: u32,
+}
+
+/// A channel that could be built.
+#[derive(Clone, Debug)]
+pub struct DrawnChannel {
+    /// Its shell.
+    pub body: Trough,
+    /// The numbers drawn, by parameter.
+    pub drawn: Vec<(String, f64)>,
+}
+
+/// An attempt that makes no surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rejected {
+    /// The reason in a few words, the same for all like it.
+    pub reason: &'static str,
+    /// The reason in full, with numbers.
+    pub message: String,
+    /// How many numbers were drawn at random: 0 means that another attempt gives the same.
+    pub drawn: usize,
+}
+
+/// Draws and builds a channel.
+pub fn channel(
+    spec: &ChannelSpec,
+    domain: &Domain,
+    key: Key<'_>,
+) -> Result<DrawnChannel, Rejected> {
+    let mut draws = Draws {
+        key,
+        drawn: Vec::new(),
+    };
+    match build(spec, domain, &mut draws) {
+        Ok(body) => Ok(DrawnChannel {
+            body,
+            drawn: draws.drawn,
+        }),
+        Err((reason, message)) => Err(Rejected {
+            reason,
+            message,
+            drawn: draws.drawn.len(),
+        }),
+    }
+}
+
+type Reason = (&'static str, String);
+
+/// Makes draws and remembers them.
+struct Draws<'a> {
+    key: Key<'a>,
+    drawn: Vec<(String, f64)>,
+}
+
+impl Draws<'_> {
+    fn stream(&self, parameter: &str) -> Stream {
+        let Key {
+            seed,
+            feature,
+            instance,
+            attempt,
+        } = self.key;
+        Stream::new(seed, feature, instance, parameter, attempt)
+    }
+
+    fn quantity(&mut self, quantity: &Quantity, parameter: &str) -> Result<f64, Reason> {
+        let value = quantity
+            .sample(&mut self.stream(parameter))
+            .map_err(|error| ("impossible draw", format!("{parameter}: {error}")))?;
+        if quantity.constant().is_none() {
+            self.drawn.push((parameter.to_owned(), value));
+        }
+        Ok(value)
+    }
+
+    fn uniform(&mut self, from: f64, to: f64, parameter: &str) -> Result<f64, Reason> {
+        let quantity =
+            Distribution::uniform(from, to).map_or(Quantity::Constant(from), Quantity::Random);
+        self.quantity(&quantity, parameter)
+    }
+
+    fn point(&mut self, point: &[Quantity; 2], parameter: &str) -> Result<DVec2, Reason> {
+        let x = self.quantity(&point[0], &format!("{parameter}.x"))?;
+        let y = self.quantity(&point[1], &format!("{parameter}.y"))?;
+        Ok(DVec2::new(x, y))
+    }
+
+    /// A point that is uniform over the domain unless it is given.
+    fn center(&mut self, center: Option<&[Quantity; 2]>, domain: &Domain) -> Result<DVec2, Reason> {
+        if let Some(center) = center {
+            return self.point(center, "trajectory.center");
+        }
+        let x = self.uniform(domain.x[0], domain.x[1], "trajectory.center.x")?;
+        let y = self.uniform(domain.y[0], domain.y[1], "trajectory.center.y")?;
+        Ok(DVec2::new(x, y))
+    }
+
+    fn profile(&mut self, profile: &ProfileSpec, parameter: &str) -> Result<Profile, Reason> {
+        match profile {
+            ProfileSpec::Quantity(quantity) => {
+                self.quantity(quantity, parameter).map(Profile::Constant)
+            }
+            ProfileSpec::Along(pairs) => {
+                let mut values = Vec::with_capacity(pairs.len());
+                for (i, (fraction, quantity)) in pairs.iter().enumerate() {
+                    values.push((
+                        *fraction,
+                        self.quantity(quantity, &format!("{parameter}[{i}]"))?,
+                    ));
+                }
+                Ok(Profile::Along(values))
+            }
+            ProfileSpec::Expression(expression) => {
+                let expression = expression.clone();
+                // A value that is not finite makes an impossible section, which says where.
+                Ok(Profile::Function(std::sync::Arc::new(move |s| {
+                    expression.eval(s).unwrap_or(f64::NAN)
+                })))
+            }
+        }
+    }
+
+    fn angle(
+        &mut self,
+        profile: Option<&ProfileSpec>,
+        parameter: &str,
+    ) -> Result<Option<Profile>, Reason> {
+        let Some(profile) = profile else {
+            return Ok(None);
+        };
+        Ok(Some(match self.profile(profile, parameter)? {
+            Profile::Constant(degrees) => Profile::Constant(degrees.to_radians()),
+            Profile::Along(pairs) => Profile::Along(
+                pairs
+                    .iter()
+                    .map(|(s, degrees)| (*s, degrees.to_radians()))
+                    .collect(),
+            ),
+            Profile::Function(f) => {
+                Profile::Function(std::sync::Arc::new(move |s| f(s).to_radians()))
+            }
+        }))
+    }
+}
+
+fn build(spec: &ChannelSpec, domain: &Domain, draws: &mut Draws<'_>) -> Result<Trough, Reason> {
+    let width = draws.profile(&spec.width, "width")?;
+    let depth = draws.profile(&spec.depth, "depth")?;
+    let asymmetry = draws.profile(&spec.asymmetry, "asymmetry")?;
+    let left_angle = draws.angle(spec.left_angle_deg.as_ref(), "left_angle_deg")?;
+    let right_angle = draws.angle(spec.right_angle_deg.as_ref(), "right_angle_deg")?;
+    let top = if let Some(top) = &spec.top {
+        draws.profile(top, "top")?
+    } else {
+        let deepest = depth.range().1;
+        let lowest = domain.z[0] + deepest;
+        if !(lowest <= domain.z[1]) {
+            let height = domain.z[1] - domain.z[0];
+            let message = format!(
+                "the channel is {deepest:.2} m deep and the domain {height:.2} m high: \
+                 make it shallower or give it a `top`"
+            );
+            return Err(("deeper than the domain", message));
+        }
+        Profile::Constant(draws.uniform(lowest, domain.z[1], "top")?)
+    };
+    let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
+    let trajectory = trajectory(&spec.trajectory, domain, overshoot, draws)?;
+    let design = ChannelDesign {
+        width,
+        depth,
+        asymmetry,
+        left_angle,
+        right_angle,
+        top,
+        origin: match spec.origin {
+            SectionOrigin::Thalweg => Origin::Thalweg,
+            SectionOrigin::TopCentre => Origin::TopCentre,
+        },
+        angle_limit: spec.angle_limit_deg.to_radians(),
+        tolerance: spec.tolerance_fraction,
+    };
+    design
+        .build(&trajectory)
+        .map_err(|error| (error.reason(), error.to_string()))
+}
+
+fn diagonal(domain: &Domain) -> f64 {
+    (domain.x[1] - domain.x[0]).hypot(domain.y[1] - domain.y[0])
+}
+
+fn trajectory(
+    spec: &TrajectorySpec,
+    domain: &Domain,
+    overshoot: f64,
+    draws: &mut Draws<'_>,
+) -> Result<Trajectory, Reason> {
+    let made = match spec {
+        TrajectorySpec::Line { from, to } => {
+            let from = draws.point(from, "trajectory.from")?;
+            let to = draws.point(to, "trajectory.to")?;
+            Trajectory::line(from, to)
+        }
+        TrajectorySpec::Heading {
+            azimuth_deg,
+            center,
+            length,
+        } => {
+            let azimuth = draws
+                .quantity(azimuth_deg, "trajectory.azimuth_deg")?
+                .to_radians();
+            let center = draws.center(center.as_ref(), domain)?;
+            let extent = extent(length.as_ref(), domain, center, azimuth, overshoot, draws)?;
+            let axis = azimuth_vector(azimuth);
+            Trajectory::line(center + axis * extent[0], center + axis * extent[1])
+        }
+        TrajectorySpec::Points {
+            points,
+            parametrization,
+            degree,
+        } => {
+            let points: Vec<DVec2> = points.iter().map(|p| DVec2::from_array(*p)).collect();
+            let parametrization = match parametrization {
+                spec::Parametrization::ChordLength => Parametrization::ChordLength,
+                spec::Parametrization::Centripetal => Parametrization::Centripetal,
+            };
+            Trajectory::through(&points, *degree, parametrization)
+        }
+        TrajectorySpec::SineGenerated {
+            amplitude,
+            wavelength,
+            azimuth_deg,
+            center,
+            phase,
+            length,
+        } => {
+            let amplitude = draws.quantity(amplitude, "trajectory.amplitude")?;
+            let wavelength = draws.quantity(wavelength, "trajectory.wavelength")?;
+            let azimuth = draws
+                .quantity(azimuth_deg, "trajectory.azimuth_deg")?
+                .to_radians();
+            let center = draws.center(center.as_ref(), domain)?;
+            let phase = match phase {
+                Some(phase) => draws.quantity(phase, "trajectory.phase")?,
+                None => draws.uniform(0.0, 1.0, "trajectory.phase")?,
+            };
+            let extent = extent(length.as_ref(), domain, center, azimuth, overshoot, draws)?;
+            Trajectory::sine_generated(&SineGenerated {
+                amplitude,
+                wavelength,
+                azimuth,
+                center,
+                phase,
+                extent,
+            })
+        }
+        TrajectorySpec::Parametric { x, y, range } => {
+            let at = |t: f64| {
+                let value = |expression: &Expression| expression.eval(t).unwrap_or(f64::NAN);
+                DVec2::new(value(x), value(y))
+            };
+            Trajectory::parametric(&at, *range)
+        }
+    };
+    made.map_err(|error| (reason(&error), error.to_string()))
+}
+
+fn reason(error: &TrajectoryError) -> &'static str {
+    match error {
+        TrajectoryError::NoMeander { .. } => "amplitude too large for the wavelength",
+        TrajectoryError::TooManyMeanders { .. } => "wavelength too short for the extent",
+        _ => "impossible trajectory",
+    }
+}
+
+/// From and to along an axis: the given length about the centre, or all across the domain and beyond.
+fn extent(
+    length: Option<&Quantity>,
+    domain: &Domain,
+    center: DVec2,
+    azimuth: f64,
+    overshoot: f64,
+    draws: &mut Draws<'_>,
+) -> Result<[f64; 2], Reason> {
+    if let Some(length) = length {
+        let length = draws.quantity(length, "trajectory.length")?;
+        return Ok([-length / 2.0, length / 2.0]);
+    }
+    let axis = azimuth_vector(azimuth);
+    let corners = domain
+        .x
+        .iter()
+        .flat_map(|&x| domain.y.iter().map(move |&y| DVec2::new(x, y)));
+    let (low, high) = corners
+        .map(|corner| (corner - center).dot(axis))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), along| {
+            (low.min(along), high.max(along))
+        });
+    Ok([low - overshoot, high + overshoot])
+}

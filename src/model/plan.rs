@@ -1,0 +1,220 @@
+//! The assembly plan: what the kernel has to do, decided in pure Rust.
+//!
+//! Coincidences that no kernel resolves reliably are decided here, by what the model means:
+//!
+//! - a body that does not reach into the domain takes no part;
+//! - bodies with the same shell (a feature repeated without any draw) share one;
+//! - *level tops that coincide*, with the domain's top or with each other, are not handed over as
+//!   coincident faces. The bodies' banks are raised above their tops, and a **lid** cuts them there:
+//!   inside means inside the raised shell and below the lid. Every contact is then a crossing at an
+//!   angle, and nothing changes inside the bodies. The domain's own top serves as lid for bodies that
+//!   reach it.
+
+use glam::DVec3;
+
+use super::realisation::{Instance, Realisation};
+use super::rules::Rules;
+use super::spec::Domain;
+use crate::features::body::{Trough, TroughError};
+
+/// Two level tops are the same within this fraction of the domain's size: far below any geology, far
+/// above rounding.
+const SAME_LEVEL: f64 = 1e-9;
+
+/// What the kernel has to assemble.
+#[derive(Clone, Debug)]
+pub struct AssemblyPlan {
+    /// Lower corner of the domain.
+    pub low: DVec3,
+    /// Upper corner of the domain.
+    pub high: DVec3,
+    /// Which volume holds what.
+    pub rules: Rules,
+    /// The volumes' names, for messages.
+    pub names: Vec<String>,
+    /// The shells, each once.
+    pub shells: Vec<Trough>,
+    /// Elevations at which bodies end under a lid inside the domain.
+    pub lids: Vec<f64>,
+    /// Bodies that take part, in order of evaluation.
+    pub bodies: Vec<PlannedBody>,
+    /// What was decided, in words for the report.
+    pub decisions: Vec<String>,
+}
+
+/// How a volume's inside is told from its shells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct PlannedBody {
+    /// The volume.
+    pub volume: usize,
+    /// Its shell.
+    pub shell: usize,
+    /// The lid that it must stay below.
+    pub lid: Option<usize>,
+}
+
+/// Why no plan can be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{volume}: its banks cannot be raised: {source}")]
+pub struct PlanError {
+    /// The volume's name.
+    pub volume: String,
+    /// Why.
+    pub source: TroughError,
+}
+
+/// How a body's level top is handled.
+#[derive(Clone, Copy, PartialEq)]
+enum Top {
+    /// As it is.
+    Free,
+    /// Cut by the domain's own top.
+    AtDomainTop,
+    /// Cut by the lid at this elevation.
+    UnderLid(f64),
+}
+
+impl AssemblyPlan {
+    /// Decides what the kernel has to do for a realisation.
+    pub fn new(realisation: &Realisation, domain: &Domain) -> Result<Self, PlanError> {
+        let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
+        let mut plan = Self {
+            low: corner(0),
+            high: corner(1),
+            rules: realisation.rules.clone(),
+            names: realisation
+                .volumes
+                .iter()
+                .map(|volume| volume.name.clone())
+                .collect(),
+            shells: Vec::new(),
+            lids: Vec::new(),
+            bodies: Vec::new(),
+            decisions: Vec::new(),
+        };
+        let reaching: Vec<&Instance> = realisation
+            .instances
+            .iter()
+            .filter(|instance| plan.reaches_domain(&instance.body, instance.volume))
+            .collect();
+        let tops = plan.tops(&reaching);
+        let mut known: Vec<(&Trough, Top, usize)> = Vec::new();
+        for (instance, &top) in reaching.iter().zip(&tops) {
+            let same = |(body, other, _): &&(&Trough, Top, usize)| {
+                *other == top && body.base() == instance.body.base()
+            };
+            let shell = if let Some(&(_, _, shell)) = known.iter().find(same) {
+                plan.note(format!(
+                    "{} has the shell of an older body",
+                    plan.names[instance.volume]
+                ));
+                shell
+            } else {
+                let shell = plan.add_shell(instance, top)?;
+                known.push((&instance.body, top, shell));
+                shell
+            };
+            let lid = plan.lid_index(top);
+            plan.bodies.push(PlannedBody {
+                volume: instance.volume,
+                shell,
+                lid,
+            });
+        }
+        Ok(plan)
+    }
+
+    fn note(&mut self, decision: String) {
+        self.decisions.push(decision);
+    }
+
+    /// Whether a body's net meets the inside of the domain.
+    fn reaches_domain(&mut self, body: &Trough, volume: usize) -> bool {
+        let (low, high) = net_bounds(body.base().net());
+        let reaches = low.cmplt(self.high).all() && high.cmpgt(self.low).all();
+        if !reaches {
+            self.note(format!("{} lies outside the domain", self.names[volume]));
+        }
+        reaches
+    }
+
+    /// Which bodies end at the domain's top or under a common lid.
+    fn tops(&mut self, bodies: &[&Instance]) -> Vec<Top> {
+        let size = (self.high - self.low).max_element();
+        let same = SAME_LEVEL * size;
+        let levels: Vec<Option<f64>> = bodies.iter().map(|one| one.body.level_top(same)).collect();
+        let bounds: Vec<_> = bodies
+            .iter()
+            .map(|one| net_bounds(one.body.base().net()))
+            .collect();
+        let mut tops = vec![Top::Free; bodies.len()];
+        for (i, level) in levels.iter().enumerate() {
+            let Some(level) = *level else { continue };
+            if (level - self.high.z).abs() <= same {
+                tops[i] = Top::AtDomainTop;
+                self.note(format!(
+                    "{} ends at the domain's top",
+                    self.names[bodies[i].volume]
+                ));
+                continue;
+            }
+            let meets = |j: &usize| {
+                *j != i
+                    && levels[*j].is_some_and(|other| (other - level).abs() <= same)
+                    && boxes_meet_in_plan(&bounds[i], &bounds[*j])
+            };
+            if level < self.high.z && (0..bodies.len()).any(|j| meets(&j)) {
+                // The first one's level stands for all that are the same.
+                let lid = levels
+                    .iter()
+                    .flatten()
+                    .copied()
+                    .find(|other| (other - level).abs() <= same)
+                    .unwrap_or(level);
+                tops[i] = Top::UnderLid(lid);
+                let name = &self.names[bodies[i].volume];
+                self.note(format!(
+                    "{name} shares its level top at {lid} m with another body"
+                ));
+            }
+        }
+        tops
+    }
+
+    fn add_shell(&mut self, instance: &Instance, top: Top) -> Result<usize, PlanError> {
+        let shell = match top {
+            Top::Free => instance.body.clone(),
+            Top::AtDomainTop | Top::UnderLid(_) => {
+                instance.body.raised().map_err(|source| PlanError {
+                    volume: self.names[instance.volume].clone(),
+                    source,
+                })?
+            }
+        };
+        self.shells.push(shell);
+        Ok(self.shells.len() - 1)
+    }
+
+    fn lid_index(&mut self, top: Top) -> Option<usize> {
+        let Top::UnderLid(level) = top else {
+            return None;
+        };
+        let known = self.lids.iter().position(|lid| *lid == level);
+        Some(known.unwrap_or_else(|| {
+            self.lids.push(level);
+            self.lids.len() - 1
+        }))
+    }
+}
+
+/// The box of a control net: by the convex hull property it holds the surface.
+pub fn net_bounds(net: &[DVec3]) -> (DVec3, DVec3) {
+    net.iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+            (low.min(*p), high.max(*p))
+        })
+}
+
+fn boxes_meet_in_plan(a: &(DVec3, DVec3), b: &(DVec3, DVec3)) -> bool {
+    a.0.x <= b.1.x && b.0.x <= a.1.x && a.0.y <= b.1.y && b.0.y <= a.1.y
+}

@@ -1,0 +1,219 @@
+//! The rules: which volume holds a place, given the bodies that the place lies inside.
+//!
+//! One function serves the point evaluator, the assembly's cells and the reports, so they cannot
+//! disagree. It knows nothing of geometry: `inside` is a question to the caller.
+//!
+//! Every place starts as background. The bodies are asked in order of evaluation (oldest first,
+//! children directly after their parent); the *holder* is the volume that holds the place so far. A
+//! body takes the place if the place is inside the body's shell, the holder is the body's parent or
+//! descends from it (without a parent: anything), the body's `removes` admits the holder, and the
+//! holder's `removed_by` admits the body. `preserve` takes nothing but the parent and the background.
+
+use serde::{Deserialize, Serialize};
+
+use super::spec::{Pick, Selector};
+
+/// The volume that every place belongs to first.
+pub const BACKGROUND: usize = 0;
+
+/// One volume's part in the rules.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VolumeRules {
+    /// The volume's name: a path such as `channel-7/lag`.
+    pub name: String,
+    /// Id of the feature that it is an instance of.
+    pub feature: String,
+    /// The feature's kind.
+    pub kind: String,
+    /// Hierarchical level.
+    pub level: u32,
+    /// Facies name.
+    pub facies: String,
+    /// The volume that it is a child of; an older one.
+    pub parent: Option<usize>,
+    /// What it may remove.
+    pub removes: Selector,
+    /// What may remove it.
+    pub removed_by: Selector,
+    /// Whether it takes only from its parent and the background.
+    pub preserve: bool,
+}
+
+/// All volumes' rules, resolved: volume 0 is the background, then in order of evaluation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rules {
+    volumes: Vec<Resolved>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Resolved {
+    parent: Option<usize>,
+    preserve: bool,
+    removes: Chosen,
+    removed_by: Chosen,
+}
+
+/// A selector as sorted runs of volume indices: instances of a feature are neighbours, so few runs do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+enum Chosen {
+    Everything,
+    Runs(Vec<(usize, usize)>),
+}
+
+/// What a body did to the holder of a place inside it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It took the place.
+    Takes,
+    /// The holder is neither its parent nor descends from it.
+    OutsideParent,
+    /// It preserves, and the holder is neither its parent nor the background.
+    Preserves,
+    /// Its `removes` does not admit the holder.
+    DoesNotRemove,
+    /// The holder's `removed_by` does not admit it.
+    Protected,
+}
+
+impl Verdict {
+    /// Why, in words that follow the body's name.
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Takes => "takes it",
+            Self::OutsideParent => "leaves it: the holder is not in its parent",
+            Self::Preserves => "leaves it: it preserves what is there",
+            Self::DoesNotRemove => "leaves it: its `removes` does not admit the holder",
+            Self::Protected => "leaves it: the holder's `removed_by` does not admit it",
+        }
+    }
+}
+
+impl Chosen {
+    fn resolve(selector: &Selector, volumes: &[VolumeRules]) -> Self {
+        let Selector::Only(picks) = selector else {
+            return Self::Everything;
+        };
+        let admits = |volume: &VolumeRules| picks.iter().any(|pick| volume.is_picked_by(pick));
+        let mut runs: Vec<(usize, usize)> = Vec::new();
+        for index in volumes
+            .iter()
+            .enumerate()
+            .filter(|(_, v)| admits(v))
+            .map(|(i, _)| i)
+        {
+            match runs.last_mut() {
+                Some(last) if last.1 + 1 == index => last.1 = index,
+                _ => runs.push((index, index)),
+            }
+        }
+        Self::Runs(runs)
+    }
+
+    fn admits(&self, volume: usize) -> bool {
+        match self {
+            Self::Everything => true,
+            Self::Runs(runs) => {
+                let after = runs.partition_point(|run| run.0 <= volume);
+                after > 0 && volume <= runs[after - 1].1
+            }
+        }
+    }
+}
+
+impl VolumeRules {
+    fn is_picked_by(&self, pick: &Pick) -> bool {
+        match pick {
+            Pick::Id(id) => self.feature == *id || self.name == *id,
+            Pick::Kind(kind) => self.kind == *kind,
+            Pick::Level(level) => self.level == *level,
+            Pick::Facies(facies) => self.facies == *facies,
+        }
+    }
+}
+
+impl Rules {
+    /// Resolves the rules of all volumes, background first, parents before their children.
+    pub fn new(volumes: &[VolumeRules]) -> Self {
+        let resolve = |volume: &VolumeRules| Resolved {
+            parent: volume.parent,
+            preserve: volume.preserve,
+            removes: Chosen::resolve(&volume.removes, volumes),
+            removed_by: Chosen::resolve(&volume.removed_by, volumes),
+        };
+        Self {
+            volumes: volumes.iter().map(resolve).collect(),
+        }
+    }
+
+    /// Number of volumes, the background included.
+    pub fn len(&self) -> usize {
+        self.volumes.len()
+    }
+
+    /// Whether there is not even a background.
+    pub fn is_empty(&self) -> bool {
+        self.volumes.is_empty()
+    }
+
+    /// What a body does to a holder of a place inside it.
+    pub fn verdict(&self, body: usize, holder: usize) -> Verdict {
+        let rules = &self.volumes[body];
+        if rules
+            .parent
+            .is_some_and(|parent| !self.descends(holder, parent))
+        {
+            Verdict::OutsideParent
+        } else if rules.preserve && holder != BACKGROUND && Some(holder) != rules.parent {
+            Verdict::Preserves
+        } else if !rules.removes.admits(holder) {
+            Verdict::DoesNotRemove
+        } else if !self.volumes[holder].removed_by.admits(body) {
+            Verdict::Protected
+        } else {
+            Verdict::Takes
+        }
+    }
+
+    /// The volume that holds a place in the end; `inside(volume)` tells whether the place is inside
+    /// that body's shell.
+    pub fn owner(&self, mut inside: impl FnMut(usize) -> bool) -> usize {
+        let bodies = 1..self.volumes.len();
+        bodies
+            .filter(|&body| inside(body))
+            .fold(BACKGROUND, |holder, body| {
+                match self.verdict(body, holder) {
+                    Verdict::Takes => body,
+                    _ => holder,
+                }
+            })
+    }
+
+    /// The same, with every body that had a say and what it did.
+    pub fn history(&self, mut inside: impl FnMut(usize) -> bool) -> Vec<(usize, Verdict)> {
+        let mut holder = BACKGROUND;
+        let mut steps = Vec::new();
+        for body in (1..self.volumes.len()).filter(|&body| inside(body)) {
+            let verdict = self.verdict(body, holder);
+            if verdict == Verdict::Takes {
+                holder = body;
+            }
+            steps.push((body, verdict));
+        }
+        steps
+    }
+
+    fn descends(&self, volume: usize, ancestor: usize) -> bool {
+        let mut at = Some(volume);
+        while let Some(volume) = at {
+            if volume == ancestor {
+                return true;
+            }
+            at = self.volumes[volume].parent;
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+#[path = "rules_tests.rs"]
+mod tests;
