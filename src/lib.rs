@@ -1,6 +1,7 @@
 //! Surface-based geological reservoir modelling without a grid.
 #![forbid(unsafe_code)]
 
+pub mod export;
 pub mod features;
 pub mod model;
 pub mod nurbs;

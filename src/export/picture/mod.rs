@@ -1,0 +1,229 @@
+//! Pictures of a model: figures of sections and maps ([`section`]) and views in three dimensions.
+//!
+//! Both take plain data — labels, colours, coordinates, triangles — and nothing of the model, so that whatever can
+//! answer "whose is this point?" can be drawn. Axes, legends and text are composed as SVG and rasterised by `resvg`
+//! with an embedded font (Noto Sans, SIL Open Font License 1.1), so that a picture needs neither a display nor
+//! installed fonts and is the same, byte for byte, wherever and with however many threads it is drawn.
+//!
+//! Known limit: the font has Latin, Greek and Cyrillic letters; other scripts appear in the SVG of a figure (its reader's
+//! fonts draw them) but not in a PNG.
+
+mod canvas;
+mod font;
+mod legend;
+mod outline;
+pub mod section;
+mod ticks;
+
+use std::fmt;
+
+/// A colour: red, green, blue, each 0 to 255 in sRGB.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Rgb(pub u8, pub u8, pub u8);
+
+impl Rgb {
+    /// This colour moved by `fraction` (0 to 1) towards `other`.
+    #[must_use]
+    pub fn mixed(self, other: Self, fraction: f64) -> Self {
+        let mix = |a: u8, b: u8| byte(f64::from(a) + (f64::from(b) - f64::from(a)) * fraction);
+        Self(
+            mix(self.0, other.0),
+            mix(self.1, other.1),
+            mix(self.2, other.2),
+        )
+    }
+}
+
+impl fmt::Display for Rgb {
+    /// As in CSS and SVG: `#rrggbb`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
+    }
+}
+
+/// The nearest byte of a value on the scale 0 to 255.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 0..=255 first"
+)]
+fn byte(value: f64) -> u8 {
+    value.round().clamp(0.0, 255.0) as u8
+}
+
+/// An entry of the legend: a facies (or whatever the colours stand for) with its colour.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Swatch {
+    /// What the reader is told: "channel sand".
+    pub name: String,
+    /// Its colour, in the legend and in the picture.
+    pub color: Rgb,
+}
+
+/// Something with an outline of its own in the picture: one body among others of its facies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Volume {
+    /// Its name, shown by a browser when the pointer is on it: "channel/7".
+    pub name: String,
+    /// Which swatch of the legend gives its colour: an index.
+    pub swatch: usize,
+}
+
+/// Why a picture could not be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PictureError {
+    /// A coordinate or angle is infinite or not a number.
+    #[error("{what} is {value}; a picture needs finite numbers")]
+    NotFinite {
+        /// Which number.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A number is outside what can be drawn.
+    #[error("{what} is {value}; give a value from {low} to {high}")]
+    OutOfRange {
+        /// Which number.
+        what: String,
+        /// Its value.
+        value: f64,
+        /// The least value that can be drawn.
+        low: f64,
+        /// The greatest value that can be drawn.
+        high: f64,
+    },
+    /// A range that is empty or upside down.
+    #[error(
+        "{what} goes from {low} to {high}; the first must be below the second, and by more than rounding"
+    )]
+    EmptyRange {
+        /// Which range.
+        what: String,
+        /// Its first value.
+        low: f64,
+        /// Its second value.
+        high: f64,
+    },
+    /// The cells don't fill the raster.
+    #[error(
+        "the raster is {width} × {height} but has {cells} cells; give width × height cells, row by row from the top"
+    )]
+    RasterSize {
+        /// Cells in a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Cells that were given.
+        cells: usize,
+    },
+    /// An index that points at nothing.
+    #[error("{what} refers to {index}, but there are only {count}; indices begin at 0")]
+    NoSuchEntry {
+        /// What refers.
+        what: String,
+        /// The index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A line with too few points or with two equal points in a row.
+    #[error("{what}: {problem}")]
+    Line {
+        /// Which line.
+        what: String,
+        /// What is wrong and what to do.
+        problem: &'static str,
+    },
+    /// The drawing could not be turned into pixels.
+    #[error("the drawing could not be turned into pixels: {0}; please report this with the input")]
+    Render(String),
+}
+
+/// `Ok` when `value` is finite.
+fn finite(what: &str, value: f64) -> Result<f64, PictureError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(PictureError::NotFinite {
+            what: what.to_owned(),
+            value,
+        })
+    }
+}
+
+/// `Ok` when `value` is a number from `low` to `high`.
+fn within(what: &str, value: f64, low: f64, high: f64) -> Result<f64, PictureError> {
+    finite(what, value)?;
+    if (low..=high).contains(&value) {
+        Ok(value)
+    } else {
+        Err(PictureError::OutOfRange {
+            what: what.to_owned(),
+            value,
+            low,
+            high,
+        })
+    }
+}
+
+/// `Ok` when the range is finite and its length is above rounding of its ends.
+fn range(what: &str, [low, high]: [f64; 2]) -> Result<(), PictureError> {
+    finite(what, low)?;
+    finite(what, high)?;
+    // 1e-9 of the ends' size: a metre at one thousand kilometres from the origin, to a micrometre.
+    if high - low > 1e-9 * low.abs().max(high.abs()) && high - low < 1e12 {
+        Ok(())
+    } else {
+        Err(PictureError::EmptyRange {
+            what: what.to_owned(),
+            low,
+            high,
+        })
+    }
+}
+
+/// `Ok` when every volume has a swatch.
+fn check_swatches(volumes: &[Volume], legend: &[Swatch]) -> Result<(), PictureError> {
+    for volume in volumes {
+        if volume.swatch >= legend.len() {
+            return Err(PictureError::NoSuchEntry {
+                what: format!("the swatch of volume {}", volume.name),
+                index: volume.swatch,
+                count: legend.len(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Most pixels along a side of a PNG.
+pub const LARGEST_SIDE: u32 = 16_384;
+/// Fewest pixels along a side of a PNG: below this nothing can be read.
+pub const SMALLEST_SIDE: u32 = 64;
+/// Most pixels of a PNG (a quarter of a gigabyte while it is drawn).
+pub const MOST_PIXELS: u64 = 1 << 26;
+
+/// `Ok` when a picture of this size can be drawn.
+fn size(width: u32, height: u32) -> Result<(), PictureError> {
+    let sides = [f64::from(SMALLEST_SIDE), f64::from(LARGEST_SIDE)];
+    within(
+        "the picture's width in pixels",
+        f64::from(width),
+        sides[0],
+        sides[1],
+    )?;
+    within(
+        "the picture's height in pixels",
+        f64::from(height),
+        sides[0],
+        sides[1],
+    )?;
+    let pixels = u64::from(width) * u64::from(height);
+    within(
+        "the picture's number of pixels",
+        pixels as f64,
+        1.0,
+        MOST_PIXELS as f64,
+    )?;
+    Ok(())
+}
