@@ -8,6 +8,7 @@ use std::{error::Error, f64::consts::TAU, fs, path::Path};
 use clinothem::export::picture::{
     Rgb, Swatch, Volume,
     section::{Extent, Kind, LabelRaster, SectionFigure, Trace, fitting_exaggeration},
+    view::{Box3, Camera, Cut, Part, Projection, Scene},
 };
 use glam::{DVec2, DVec3};
 
@@ -180,6 +181,134 @@ fn map(belt: &[Channel], traces: Vec<Trace>) -> SectionFigure {
     }
 }
 
+/// The surface of a channel between x = 0 and x = 1000: base, top and both ends.
+fn surface(channel: &Channel, volume: usize, opacity: f64) -> Part {
+    const STATIONS: u32 = 160;
+    const ACROSS: u32 = 24;
+    let row = 2 * ACROSS;
+    let mut positions = Vec::new();
+    for station in 0..=STATIONS {
+        let x = 1000.0 * f64::from(station) / f64::from(STATIONS);
+        let (y, slope) = channel.axis(x);
+        // Once around the section: along the base, then back along the top.
+        for i in 0..row {
+            let fraction = f64::from(i % ACROSS) / f64::from(ACROSS);
+            let (across, z) = if i < ACROSS {
+                let across = channel.width * (fraction - 0.5);
+                (across, channel.base(across))
+            } else {
+                (channel.width * (0.5 - fraction), channel.top)
+            };
+            positions.push(DVec3::new(x, y + across * slope.hypot(1.0), z));
+        }
+    }
+    let mut triangles = Vec::new();
+    for station in 0..STATIONS {
+        for i in 0..row {
+            let [a, b] = [i, (i + 1) % row].map(|i| station * row + i);
+            triangles.extend([[a, b, a + row], [b, b + row, a + row]]);
+        }
+    }
+    let last = STATIONS * row;
+    for i in 1..row - 1 {
+        triangles.extend([[0, i + 1, i], [last, last + i, last + i + 1]]);
+    }
+    Part {
+        volume,
+        positions,
+        normals: None,
+        triangles,
+        opacity,
+    }
+}
+
+fn scene(belt: &[Channel], title: &str, camera: Camera, cut: Option<Cut>) -> Scene {
+    Scene {
+        title: title.to_owned(),
+        subtitle: String::new(),
+        domain: Box3 {
+            low: DVec3::new(0.0, 0.0, -60.0),
+            high: DVec3::new(1000.0, 1000.0, 0.0),
+        },
+        parts: belt
+            .iter()
+            .zip(1..)
+            .map(|(channel, volume)| surface(channel, volume, 1.0))
+            .collect(),
+        volumes: volumes(belt),
+        legend: legend(),
+        camera,
+        cut,
+    }
+}
+
+fn views(belt: &[Channel], folder: &Path) -> Result<(), Box<dyn Error>> {
+    let all = |p: DVec3| Some(owner(belt, p));
+    let bodies = |p: DVec3| Some(owner(belt, p)).filter(|&label| label != MUD);
+    let above = Camera::from_above(5.0);
+    let below = Camera::from_below(5.0);
+    let near = Camera {
+        projection: Projection::Perspective { distance: 2.5 },
+        ..above
+    };
+    let corner = Cut::Corner {
+        low: DVec3::new(-1.0, -1.0, -34.0),
+        high: DVec3::new(560.0, 420.0, 1.0),
+    };
+    let plane = Cut::Plane {
+        point: DVec3::new(430.0, 430.0, 0.0),
+        removes: DVec3::new(-1.0, -1.0, 0.0),
+    };
+    let block = scene(
+        belt,
+        "Channel belt, block diagram with its south-west corner cut away",
+        above,
+        Some(corner),
+    );
+    fs::write(folder.join("block.png"), block.png(1600, 1000, Some(&all))?)?;
+    let solids = scene(
+        belt,
+        "Channel belt, sandbodies seen from above",
+        above,
+        None,
+    );
+    fs::write(folder.join("above.png"), solids.png(1600, 1000, None)?)?;
+    let solids = scene(
+        belt,
+        "Channel belt, sandbodies seen from below",
+        below,
+        None,
+    );
+    fs::write(folder.join("below.png"), solids.png(1600, 1000, None)?)?;
+    let cut = scene(
+        belt,
+        "Channel belt, cut along a diagonal plane",
+        near,
+        Some(plane),
+    );
+    fs::write(folder.join("cut.png"), cut.png(1600, 1000, Some(&bodies))?)?;
+    let mut glass = scene(
+        belt,
+        "Channel belt, the younger channels as glass",
+        above,
+        None,
+    );
+    for part in glass.parts.iter_mut().skip(5) {
+        part.opacity = 0.4;
+    }
+    fs::write(folder.join("glass.png"), glass.png(1200, 1200, None)?)?;
+    let map = Camera {
+        azimuth_deg: 180.0,
+        elevation_deg: 90.0,
+        ..above
+    };
+    fs::write(
+        folder.join("top.png"),
+        scene(belt, "Channel belt from straight above", map, None).png(1600, 1000, None)?,
+    )?;
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args()
         .nth(1)
@@ -223,5 +352,5 @@ fn main() -> Result<(), Box<dyn Error>> {
         fs::write(folder.join(format!("{name}.svg")), figure.svg()?)?;
         fs::write(folder.join(format!("{name}.png")), figure.png(1600)?)?;
     }
-    Ok(())
+    views(&belt, folder)
 }

@@ -1,4 +1,4 @@
-//! Pictures of a model: figures of sections and maps ([`section`]) and views in three dimensions.
+//! Pictures of a model: figures of sections and maps ([`section`]) and views in three dimensions ([`view`]).
 //!
 //! Both take plain data — labels, colours, coordinates, triangles — and nothing of the model, so that whatever can
 //! answer "whose is this point?" can be drawn. Axes, legends and text are composed as SVG and rasterised by `resvg`
@@ -8,12 +8,18 @@
 //! Known limit: the font has Latin, Greek and Cyrillic letters; other scripts appear in the SVG of a figure (its reader's
 //! fonts draw them) but not in a PNG.
 
+mod camera;
 mod canvas;
+mod face;
 mod font;
+mod furniture;
 mod legend;
 mod outline;
+mod raster;
 pub mod section;
+mod solid;
 mod ticks;
+pub mod view;
 
 use std::fmt;
 

@@ -1,0 +1,469 @@
+//! Views in three dimensions: solids as triangles, the domain's faces coloured by owner, cut-aways.
+//!
+//! A **block diagram** gives [`Scene::png`] an owner function: the domain's outer faces and the faces of the cut are then
+//! coloured by the owner of their points. Where the function answers `None` a face is open, so that bodies are seen
+//! inside a wire box. Parts are closed or open surfaces of triangles; a cut opens them, and the owner function closes
+//! the openings.
+
+use std::collections::BTreeSet;
+
+use glam::{DVec2, DVec3};
+use resvg::tiny_skia::Pixmap;
+
+use super::{
+    PictureError, Rgb, Swatch, Volume,
+    camera::Eye,
+    canvas::Canvas,
+    face::{self, Asked, OPEN},
+    finite, font, furniture,
+    legend::Legend,
+    range,
+    raster::{self, Drawing, Object, Skin},
+    section::heading,
+    size,
+    solid::{HalfSpace, Vertex, removed, triangles},
+    within,
+};
+
+/// Who owns a point: an index into [`Scene::volumes`], or `None` where nothing shall be shown. Asked from several
+/// threads.
+pub type Owner<'a> = &'a (dyn Fn(DVec3) -> Option<u32> + Sync);
+
+/// A box along the axes, in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Box3 {
+    /// Least easting, northing and elevation.
+    pub low: DVec3,
+    /// Greatest easting, northing and elevation.
+    pub high: DVec3,
+}
+
+impl Box3 {
+    pub(super) fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|i| {
+            DVec3::new(
+                if i & 1 == 0 { self.low.x } else { self.high.x },
+                if i & 2 == 0 { self.low.y } else { self.high.y },
+                if i & 4 == 0 { self.low.z } else { self.high.z },
+            )
+        })
+    }
+
+    pub(super) fn sides(&self) -> [HalfSpace; 6] {
+        let side = |normal: DVec3, point: DVec3| HalfSpace {
+            normal,
+            offset: normal.dot(point),
+        };
+        [
+            side(-DVec3::X, self.low),
+            side(DVec3::X, self.high),
+            side(-DVec3::Y, self.low),
+            side(DVec3::Y, self.high),
+            side(-DVec3::Z, self.low),
+            side(DVec3::Z, self.high),
+        ]
+    }
+}
+
+/// A surface of triangles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Which of [`Scene::volumes`] it shows: an index, for its name and colour.
+    pub volume: usize,
+    /// Points.
+    pub positions: Vec<DVec3>,
+    /// Normals at the points; without them they are made from the triangles, smooth up to angles of 40°.
+    pub normals: Option<Vec<DVec3>>,
+    /// Three points each, counter-clockwise as seen from outside (this matters only for triangles that lie exactly in
+    /// the plane of a cut).
+    pub triangles: Vec<[u32; 3]>,
+    /// From 0 (not drawn) to 1 (hides what is behind).
+    pub opacity: f64,
+}
+
+/// How depth is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Parallel lines stay parallel: lengths can be compared.
+    Orthographic,
+    /// What is farther away is smaller; the viewer is this many diagonals of the (exaggerated) domain from its middle.
+    Perspective {
+        /// In diagonals of the domain, 1.5 to 100; 3 is mild.
+        distance: f64,
+    },
+}
+
+/// Where the view is taken from; it always looks at the middle of the domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Bearing of the viewer from the domain's middle, degrees clockwise from north: 180 looks at the model from the
+    /// south, with north behind.
+    pub azimuth_deg: f64,
+    /// Height of the viewer above the horizon in degrees, −90 (straight from below) to 90 (a map).
+    pub elevation_deg: f64,
+    /// How many times elevations are stretched against distances.
+    pub vertical_exaggeration: f64,
+    /// Orthographic or perspective.
+    pub projection: Projection,
+}
+
+impl Camera {
+    /// From the south-south-west, 28° above the horizon, orthographic.
+    pub const fn from_above(vertical_exaggeration: f64) -> Self {
+        Self {
+            azimuth_deg: 212.0,
+            elevation_deg: 28.0,
+            vertical_exaggeration,
+            projection: Projection::Orthographic,
+        }
+    }
+
+    /// The same from 28° below the horizon.
+    pub const fn from_below(vertical_exaggeration: f64) -> Self {
+        Self {
+            elevation_deg: -28.0,
+            ..Self::from_above(vertical_exaggeration)
+        }
+    }
+}
+
+/// What is cut away.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cut {
+    /// All on one side of a plane.
+    Plane {
+        /// A point of the plane.
+        point: DVec3,
+        /// Points from the plane to the side that is taken away.
+        removes: DVec3,
+    },
+    /// All inside a box, such as the corner of the domain nearest to the viewer.
+    Corner {
+        /// Least coordinates of the box; at or beyond the domain's for none of its sides there.
+        low: DVec3,
+        /// Greatest coordinates of the box.
+        high: DVec3,
+    },
+}
+
+/// A view to be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The first line, bold.
+    pub title: String,
+    /// A line below it; empty for none. The viewpoint and the exaggeration are added by the view.
+    pub subtitle: String,
+    /// The model's domain, drawn as a wire box with axes.
+    pub domain: Box3,
+    /// Surfaces to be drawn.
+    pub parts: Vec<Part>,
+    /// What parts and the owner function refer to.
+    pub volumes: Vec<Volume>,
+    /// Facies and their colours; the legend shows those that are drawn, in this order.
+    pub legend: Vec<Swatch>,
+    /// The viewpoint.
+    pub camera: Camera,
+    /// What is cut away.
+    pub cut: Option<Cut>,
+}
+
+impl Scene {
+    /// The view as a PNG file. With an owner function the faces of the domain and of the cut are coloured by it.
+    pub fn png(
+        &self,
+        width: u32,
+        height: u32,
+        owner: Option<Owner<'_>>,
+    ) -> Result<Vec<u8>, PictureError> {
+        self.check()?;
+        size(width, height)?;
+        let page = Page::new(width, height);
+        let removed = self
+            .cut
+            .as_ref()
+            .map_or_else(Vec::new, |cut| removed(cut, &self.domain));
+        let eye = Eye::new(&self.camera, &self.domain);
+
+        // Text first: it decides how much room is left.
+        let mut over = Canvas::default();
+        let notes = [self.subtitle.clone(), self.note()];
+        let top = heading(&mut over, &self.title, &notes, page.size.x)?;
+        let eye = eye.fitted(
+            &self.domain,
+            DVec2::new(MARGIN, top + 24.0),
+            page.size - DVec2::new(COLUMN + MARGIN, MARGIN),
+        );
+
+        // Pictures in pixels, text in pixels of the page.
+        let fine = eye.finer(page.scale);
+        let asked = owner.map(|owner| Asked {
+            owner,
+            volumes: self.volumes.len(),
+            eye: &fine,
+            domain: &self.domain,
+        });
+        let faces = match asked {
+            Some(asked) => face::faces(asked, &removed)?,
+            None => Vec::new(),
+        };
+        let mut labels: BTreeSet<u32> = faces.iter().flat_map(face::Face::labels).collect();
+        labels.remove(&OPEN);
+        let drawing = Drawing {
+            objects: self.objects(&faces, &fine, &removed),
+            colors: self.volumes.iter().map(|v| self.color(v)).collect(),
+            asked,
+            eye: &fine,
+            line: 0.5 * page.scale,
+        };
+        let image = raster::draw(&drawing, width as usize, height as usize)?;
+
+        let edges = furniture::edges(&self.domain, &eye);
+        let mut under = Canvas::default();
+        furniture::back(&mut under, &edges, &eye);
+        furniture::front(&mut over, &edges, &eye, &removed);
+        furniture::axes(&mut over, &edges, &eye, &self.domain)?;
+        let corner = DVec2::new(page.size.x - COLUMN - 16.0, top + 20.0);
+        furniture::north_arrow(&mut over, corner + DVec2::new(46.0, 50.0), &eye);
+        let bar = furniture::scale_bar(&eye, COLUMN - 60.0);
+        furniture::draw_scale_bar(&mut over, corner + DVec2::new(6.0, 122.0), bar);
+        let legend = Legend::column(&self.swatches(&labels), COLUMN, 14.0)?;
+        legend.draw(&mut over, corner + DVec2::new(0.0, 178.0));
+        page.compose(&under, &image, &over)
+    }
+
+    fn color(&self, volume: &Volume) -> Rgb {
+        self.legend[volume.swatch].color
+    }
+
+    /// Parts first, so that faces win only where they are nearer.
+    fn objects<'a>(
+        &self,
+        faces: &'a [face::Face],
+        eye: &Eye,
+        removed: &[HalfSpace],
+    ) -> Vec<Object<'a>> {
+        let parts = self.parts.iter().filter(|part| part.opacity > 0.0);
+        let solids = parts.map(|part| Object {
+            triangles: triangles(part, eye, removed),
+            skin: Skin::Plain {
+                color: self.color(&self.volumes[part.volume]),
+                opacity: part.opacity,
+            },
+        });
+        let flats = faces.iter().map(|face| Object {
+            triangles: face
+                .pieces
+                .iter()
+                .flat_map(|piece| {
+                    let corner = |i: usize| Vertex {
+                        at: piece[i],
+                        normal: face.normal,
+                    };
+                    (1..piece.len() - 1).map(move |i| [corner(0), corner(i), corner(i + 1)])
+                })
+                .collect(),
+            skin: Skin::Owned(face),
+        });
+        solids.chain(flats).collect()
+    }
+
+    /// The swatches of what is drawn.
+    fn swatches(&self, labels: &BTreeSet<u32>) -> Vec<&Swatch> {
+        let mut used = vec![false; self.legend.len()];
+        for part in self.parts.iter().filter(|part| part.opacity > 0.0) {
+            used[self.volumes[part.volume].swatch] = true;
+        }
+        for &label in labels {
+            used[self.volumes[label as usize].swatch] = true;
+        }
+        let swatches = self.legend.iter().zip(used);
+        swatches
+            .filter(|(_, used)| *used)
+            .map(|(swatch, _)| swatch)
+            .collect()
+    }
+
+    /// Viewpoint and exaggeration in words.
+    fn note(&self) -> String {
+        let Camera {
+            azimuth_deg,
+            elevation_deg,
+            vertical_exaggeration,
+            ..
+        } = self.camera;
+        let from = super::section::wind(DVec2::from_angle(
+            std::f64::consts::FRAC_PI_2 - azimuth_deg.to_radians(),
+        ));
+        let height = elevation_deg.abs().round();
+        let viewpoint = if height >= 90.0 {
+            let side = if elevation_deg > 0.0 {
+                "above"
+            } else {
+                "below"
+            };
+            format!("seen straight from {side}")
+        } else {
+            let side = if elevation_deg >= 0.0 {
+                "above"
+            } else {
+                "below"
+            };
+            format!("seen from the {from}, {height}° {side} the horizon")
+        };
+        if vertical_exaggeration == 1.0 {
+            format!("{viewpoint} · no vertical exaggeration")
+        } else {
+            format!("{viewpoint} · vertical exaggeration {vertical_exaggeration}×")
+        }
+    }
+
+    fn check(&self) -> Result<(), PictureError> {
+        let Box3 { low, high } = self.domain;
+        range("the domain's range of eastings", [low.x, high.x])?;
+        range("the domain's range of northings", [low.y, high.y])?;
+        range("the domain's range of elevations", [low.z, high.z])?;
+        super::check_swatches(&self.volumes, &self.legend)?;
+        self.check_camera()?;
+        self.check_cut()?;
+        for (i, part) in self.parts.iter().enumerate() {
+            self.check_part(i, part)?;
+        }
+        Ok(())
+    }
+
+    fn check_camera(&self) -> Result<(), PictureError> {
+        let camera = &self.camera;
+        within("the camera's azimuth", camera.azimuth_deg, -360.0, 720.0)?;
+        within("the camera's elevation", camera.elevation_deg, -90.0, 90.0)?;
+        within(
+            "the vertical exaggeration",
+            camera.vertical_exaggeration,
+            1e-3,
+            1e4,
+        )?;
+        if let Projection::Perspective { distance } = camera.projection {
+            within("the viewer's distance in diagonals", distance, 1.5, 100.0)?;
+        }
+        Ok(())
+    }
+
+    fn check_cut(&self) -> Result<(), PictureError> {
+        match self.cut {
+            None => Ok(()),
+            Some(Cut::Plane { point, removes }) => {
+                for value in [point.to_array(), removes.to_array()].concat() {
+                    finite("a coordinate of the cutting plane", value)?;
+                }
+                within(
+                    "the length of the cutting plane's direction",
+                    removes.length(),
+                    1e-9,
+                    1e12,
+                )?;
+                Ok(())
+            }
+            Some(Cut::Corner { low, high }) => {
+                range("the removed box's range of eastings", [low.x, high.x])?;
+                range("the removed box's range of northings", [low.y, high.y])?;
+                range("the removed box's range of elevations", [low.z, high.z])
+            }
+        }
+    }
+
+    fn check_part(&self, i: usize, part: &Part) -> Result<(), PictureError> {
+        let Some(volume) = self.volumes.get(part.volume) else {
+            return Err(PictureError::NoSuchEntry {
+                what: format!("part {i}"),
+                index: part.volume,
+                count: self.volumes.len(),
+            });
+        };
+        let name = &volume.name;
+        within(&format!("the opacity of {name}"), part.opacity, 0.0, 1.0)?;
+        let reach = 0.25 * (self.domain.high - self.domain.low);
+        for (j, &position) in part.positions.iter().enumerate() {
+            for axis in 0..3 {
+                // Far outside the domain there is no page to draw on.
+                within(
+                    &format!("coordinate {axis} of point {j} of {name}"),
+                    position[axis],
+                    self.domain.low[axis] - reach[axis],
+                    self.domain.high[axis] + reach[axis],
+                )?;
+            }
+        }
+        let normals = part.normals.as_deref().unwrap_or_default();
+        for (j, normal) in normals.iter().enumerate() {
+            for axis in 0..3 {
+                finite(&format!("normal {j} of {name}"), normal[axis])?;
+            }
+        }
+        let points = match &part.normals {
+            Some(normals) => normals.len().min(part.positions.len()),
+            None => part.positions.len(),
+        };
+        for (j, triangle) in part.triangles.iter().enumerate() {
+            for &corner in triangle {
+                if corner as usize >= points {
+                    return Err(PictureError::NoSuchEntry {
+                        what: format!("triangle {j} of {name}"),
+                        index: corner as usize,
+                        count: points,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Room around the domain for ticks and their numbers, in pixels of the page.
+const MARGIN: f64 = 92.0;
+/// Width of the column with arrow, scale and legend.
+const COLUMN: f64 = 230.0;
+
+/// The page that text is laid out on: about 1400 by 900, whatever the number of pixels.
+struct Page {
+    size: DVec2,
+    scale: f64,
+    pixels: [u32; 2],
+}
+
+impl Page {
+    fn new(width: u32, height: u32) -> Self {
+        let pixels = DVec2::new(f64::from(width), f64::from(height));
+        let scale = (pixels.x / 1300.0).min(pixels.y / 700.0);
+        Self {
+            size: pixels / scale,
+            scale,
+            pixels: [width, height],
+        }
+    }
+
+    /// White paper, then `under`, the image (premultiplied RGBA) and `over`.
+    fn compose(
+        &self,
+        under: &Canvas,
+        image: &[u8],
+        over: &Canvas,
+    ) -> Result<Vec<u8>, PictureError> {
+        let [width, height] = self.pixels;
+        let mut pixels = Pixmap::new(width, height)
+            .ok_or_else(|| PictureError::Render(format!("no image of {width} × {height}")))?;
+        pixels.fill(resvg::tiny_skia::Color::WHITE);
+        let svg = |canvas: &Canvas| canvas.finish(self.size.x, self.size.y, "");
+        font::draw(&svg(under), self.scale, &mut pixels)?;
+        for (below, above) in pixels
+            .data_mut()
+            .chunks_exact_mut(4)
+            .zip(image.chunks_exact(4))
+        {
+            let through = 1.0 - f64::from(above[3]) / 255.0;
+            for (below, above) in below.iter_mut().zip(above) {
+                *below = super::byte(f64::from(*above) + through * f64::from(*below));
+            }
+        }
+        font::draw(&svg(over), self.scale, &mut pixels)?;
+        font::png(&pixels)
+    }
+}
