@@ -272,14 +272,20 @@ fn views(belt: &[Channel], folder: &Path) -> Result<(), Box<dyn Error>> {
         above,
         None,
     );
-    fs::write(folder.join("above.png"), solids.png(1600, 1000, None)?)?;
+    fs::write(
+        folder.join("above.png"),
+        solids.png(1600, 1000, Some(&bodies))?,
+    )?;
     let solids = scene(
         belt,
         "Channel belt, sandbodies seen from below",
         below,
         None,
     );
-    fs::write(folder.join("below.png"), solids.png(1600, 1000, None)?)?;
+    fs::write(
+        folder.join("below.png"),
+        solids.png(1600, 1000, Some(&bodies))?,
+    )?;
     let cut = scene(
         belt,
         "Channel belt, cut along a diagonal plane",

@@ -6,6 +6,7 @@ use super::{
     PictureError, Rgb,
     camera::Eye,
     canvas::{Anchor, Canvas, GREY, INK, Text, pen},
+    face,
     font::{self, Style, bold, regular},
     solid::HalfSpace,
     ticks::{Ticks, round_down},
@@ -16,6 +17,9 @@ const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
 const TITLES: [&str; 3] = ["easting (m)", "northing (m)", "elevation (m)"];
 /// Axes that are seen shorter than this, in pixels, get no ticks.
 const SHORTEST: f64 = 36.0;
+const FLOOR: Rgb = Rgb(0xf4, 0xf4, 0xf1);
+const WALL: Rgb = Rgb(0xfa, 0xfa, 0xf8);
+const GRID: Rgb = Rgb(0xe0, 0xe0, 0xdc);
 const LABEL: Style = regular(13.0);
 const TITLE: Style = regular(14.0);
 
@@ -48,11 +52,69 @@ pub(super) fn edges(domain: &Box3, eye: &Eye) -> Vec<Edge> {
     edges
 }
 
-/// The edges behind everything.
-pub(super) fn back(canvas: &mut Canvas, edges: &[Edge], eye: &Eye) {
+/// What is behind everything: the inner sides of the domain, a grid on its floor (its ceiling from below), its hidden
+/// edges and the rim of the cut.
+pub(super) fn back(
+    canvas: &mut Canvas,
+    edges: &[Edge],
+    eye: &Eye,
+    domain: &Box3,
+    removed: &[HalfSpace],
+) {
+    let outline = |side: &HalfSpace, within: &[HalfSpace]| -> Vec<DVec2> {
+        let polygon = face::polygon(side, domain, within);
+        polygon
+            .iter()
+            .map(|vertex| eye.project(vertex.at).0)
+            .collect()
+    };
+    let sides = domain.sides();
+    for side in &sides {
+        let foot = side.normal * side.offset;
+        let level = side.normal.z != 0.0;
+        let others = sides.iter().filter(|other| other.normal != side.normal);
+        let others: Vec<HalfSpace> = others.copied().collect();
+        let rim = polygon_middle(domain, side.normal);
+        if eye.sees(side.normal, eye.stretched(rim)) {
+            continue;
+        }
+        let fill = if level { FLOOR } else { WALL };
+        canvas.polygon(&outline(side, &others), fill, None);
+        if level {
+            grid(canvas, eye, domain, foot.z);
+        }
+    }
     for edge in edges.iter().filter(|edge| edge.seen == [false; 2]) {
         let [a, b] = edge.ends.map(|end| eye.project(end).0);
         canvas.line(a, b, pen(Rgb(0xa8, 0xa8, 0xa8), 1.0));
+    }
+    for (i, side) in removed.iter().enumerate() {
+        let others = removed.iter().enumerate().filter(|(j, _)| *j != i);
+        let others: Vec<HalfSpace> = others.map(|(_, other)| *other).chain(sides).collect();
+        let mut rim = outline(side, &others);
+        if let Some(&first) = rim.first() {
+            rim.push(first);
+            canvas.polyline(&rim, pen(GREY, 1.0));
+        }
+    }
+}
+
+fn polygon_middle(domain: &Box3, normal: DVec3) -> DVec3 {
+    (domain.low + domain.high) / 2.0 + normal * (domain.high - domain.low) / 2.0
+}
+
+/// Lines at round eastings and northings.
+fn grid(canvas: &mut Canvas, eye: &Eye, domain: &Box3, z: f64) {
+    for axis in [0, 1] {
+        let [low, high] = [domain.low[axis], domain.high[axis]];
+        for value in Ticks::new([low, high], 10.0).values {
+            let ends = [domain.low, domain.high].map(|mut end| {
+                end[axis] = value;
+                end.z = z;
+                eye.project(end).0
+            });
+            canvas.line(ends[0], ends[1], pen(GRID, 0.8));
+        }
     }
 }
 
@@ -61,12 +123,18 @@ pub(super) fn front(canvas: &mut Canvas, edges: &[Edge], eye: &Eye, removed: &[H
     for edge in edges.iter().filter(|edge| edge.seen != [false; 2]) {
         let at = |t: f64| eye.project(edge.ends[0].lerp(edge.ends[1], t)).0;
         let mut gone = inside(edge.ends, removed);
+        // Those nearest to the viewer run across the picture: lighter.
+        let line = if edge.seen == [true; 2] {
+            pen(INK, 1.0).opaque(0.7)
+        } else {
+            pen(INK, 1.3)
+        };
         if removed.is_empty() || gone[0] >= gone[1] {
             gone = [1.0, 1.0];
         }
         for [from, to] in [[0.0, gone[0]], [gone[1], 1.0]] {
             if to > from {
-                canvas.line(at(from), at(to), pen(INK, 1.3));
+                canvas.line(at(from), at(to), line);
             }
         }
         if gone[1] > gone[0] {
@@ -106,7 +174,8 @@ struct Place {
 
 impl Place {
     fn meets(&self, other: &Self) -> bool {
-        self.low.cmplt(other.high).all() && other.low.cmplt(self.high).all()
+        let gap = DVec2::new(5.0, 0.0);
+        self.low.cmplt(other.high + gap).all() && other.low.cmplt(self.high + gap).all()
     }
 }
 
@@ -166,26 +235,18 @@ fn beside(at: DVec2, out: DVec2, wide: f64) -> Place {
     let centre = at + out * size * 0.5;
     let low = centre - size * 0.5;
     Place {
-        low: low - DVec2::new(2.0, 0.0),
-        high: low + size + DVec2::new(2.0, 0.0),
-    }
-    .shifted(DVec2::new(2.0, 0.0))
-}
-
-impl Place {
-    /// The text begins at the lower left corner, inside the margin.
-    fn shifted(mut self, margin: DVec2) -> Self {
-        self.low += margin;
-        self
+        low,
+        high: low + size,
     }
 }
 
 fn title(canvas: &mut Canvas, text: &str, [a, b]: [DVec2; 2], out: DVec2, reach: f64) {
     let along = b - a;
     let mut angle = along.y.atan2(along.x).to_degrees();
-    if angle > 90.0 {
+    // To be read from the left, and upwards where it stands nearly upright.
+    if angle > 80.0 {
         angle -= 180.0;
-    } else if angle <= -90.0 {
+    } else if angle <= -100.0 {
         angle += 180.0;
     }
     let middle = (a + b) / 2.0 + out * reach;

@@ -57,7 +57,8 @@ impl<'a> Legend<'a> {
         text: f64,
     ) -> Result<Self, PictureError> {
         let style = regular(text);
-        let row = (text * LINE).max(BOX.y) + 9.0;
+        // Smaller text also stands closer.
+        let row = (text * LINE).max(BOX.y) + (text - 5.0);
         let mut y = 0.0;
         let mut entries = Vec::new();
         for &swatch in swatches {

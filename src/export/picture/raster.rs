@@ -153,7 +153,9 @@ pub(super) fn draw(
         drawing,
         eye: &eye,
         triangles: &triangles,
-        light: (-0.45 * eye.right + 0.62 * eye.up - 0.64 * eye.forward).normalize(),
+        // The higher the viewer, the higher the light; from below it comes along with the viewer.
+        light: (-0.45 * eye.right + (0.28 - 0.36 * eye.forward.z) * eye.up - 0.72 * eye.forward)
+            .normalize(),
         width,
         reach,
     };
@@ -403,7 +405,7 @@ impl Scene<'_> {
             Skin::Owned(_) => {
                 let lit = self.lit(base, normal);
                 let flat = channels(base);
-                [0, 1, 2].map(|i| 0.6 * flat[i] + 0.4 * lit[i])
+                [0, 1, 2].map(|i| 0.5 * flat[i] + 0.5 * lit[i])
             }
         };
         over(lit, 1.0, [0.0; 4])
@@ -412,7 +414,7 @@ impl Scene<'_> {
     /// A colour under the light.
     fn lit(&self, color: Rgb, normal: DVec3) -> [f64; 3] {
         let half = 0.5 + 0.5 * normal.dot(self.light);
-        let strength = 0.50 + 0.58 * half * half + 0.04 * normal.z;
+        let strength = 0.58 + 0.47 * half * half + 0.03 * normal.z;
         channels(color).map(|channel| {
             if strength <= 1.0 {
                 channel * strength

@@ -471,7 +471,7 @@ fn bearing_deg(direction: DVec2) -> f64 {
 }
 
 /// The nearest of the eight winds.
-pub(super) fn wind(direction: DVec2) -> &'static str {
+fn wind(direction: DVec2) -> &'static str {
     const WINDS: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
     WINDS[usize::from(byte(bearing_deg(direction) / 45.0)) % 8]
 }

@@ -219,15 +219,27 @@ impl Scene {
 
         let edges = furniture::edges(&self.domain, &eye);
         let mut under = Canvas::default();
-        furniture::back(&mut under, &edges, &eye);
+        furniture::back(&mut under, &edges, &eye, &self.domain, &removed);
         furniture::front(&mut over, &edges, &eye, &removed);
         furniture::axes(&mut over, &edges, &eye, &self.domain)?;
         let corner = DVec2::new(page.size.x - COLUMN - 16.0, top + 20.0);
         furniture::north_arrow(&mut over, corner + DVec2::new(46.0, 50.0), &eye);
-        let bar = furniture::scale_bar(&eye, COLUMN - 60.0);
-        furniture::draw_scale_bar(&mut over, corner + DVec2::new(6.0, 122.0), bar);
-        let legend = Legend::column(&self.swatches(&labels), COLUMN, 14.0)?;
-        legend.draw(&mut over, corner + DVec2::new(0.0, 178.0));
+        let mut legend_top = corner.y + 112.0;
+        // In perspective there is no one scale.
+        if self.camera.projection == Projection::Orthographic {
+            let bar = furniture::scale_bar(&eye, COLUMN - 60.0);
+            let at = DVec2::new(corner.x + 6.0, legend_top);
+            furniture::draw_scale_bar(&mut over, at, bar);
+            legend_top += 56.0;
+        }
+        let swatches = self.swatches(&labels);
+        let mut legend = Legend::column(&swatches, COLUMN, 14.0)?;
+        for text in [12.0, 10.0, 8.0] {
+            if legend_top + legend.height > page.size.y {
+                legend = Legend::column(&swatches, COLUMN, text)?;
+            }
+        }
+        legend.draw(&mut over, DVec2::new(corner.x, legend_top));
         page.compose(&under, &image, &over)
     }
 
@@ -285,15 +297,18 @@ impl Scene {
 
     /// Viewpoint and exaggeration in words.
     fn note(&self) -> String {
+        const WINDS: [&str; 16] = [
+            "N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE", "S", "SSW", "SW", "WSW", "W", "WNW",
+            "NW", "NNW",
+        ];
         let Camera {
             azimuth_deg,
             elevation_deg,
             vertical_exaggeration,
             ..
         } = self.camera;
-        let from = super::section::wind(DVec2::from_angle(
-            std::f64::consts::FRAC_PI_2 - azimuth_deg.to_radians(),
-        ));
+        let sixteenth = super::byte(azimuth_deg.rem_euclid(360.0) / 22.5);
+        let from = WINDS[usize::from(sixteenth) % 16];
         let height = elevation_deg.abs().round();
         let viewpoint = if height >= 90.0 {
             let side = if elevation_deg > 0.0 {
@@ -310,7 +325,9 @@ impl Scene {
             };
             format!("seen from the {from}, {height}° {side} the horizon")
         };
-        if vertical_exaggeration == 1.0 {
+        if height >= 90.0 && self.camera.projection == Projection::Orthographic {
+            viewpoint
+        } else if vertical_exaggeration == 1.0 {
             format!("{viewpoint} · no vertical exaggeration")
         } else {
             format!("{viewpoint} · vertical exaggeration {vertical_exaggeration}×")
