@@ -165,18 +165,31 @@ fn inside([a, b]: [DVec3; 2], removed: &[HalfSpace]) -> [f64; 2] {
     part
 }
 
-/// A text's place, to keep texts apart.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    low: DVec2,
-    high: DVec2,
+/// The four corners of a text, in order, to keep texts apart.
+type Quad = [DVec2; 4];
+
+/// Whether two rectangles have a common point: no direction of a side separates them.
+fn meet(a: &Quad, b: &Quad) -> bool {
+    let sides = [a[1] - a[0], a[2] - a[1], b[1] - b[0], b[2] - b[1]];
+    sides.iter().all(|side| {
+        let span = |quad: &Quad| {
+            let along = quad.map(|p| p.dot(*side));
+            (
+                along.into_iter().fold(f64::INFINITY, f64::min),
+                along.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            )
+        };
+        let (a, b) = (span(a), span(b));
+        a.0 < b.1 && b.0 < a.1
+    })
 }
 
-impl Place {
-    fn meets(&self, other: &Self) -> bool {
-        let gap = DVec2::new(5.0, 0.0);
-        self.low.cmplt(other.high + gap).all() && other.low.cmplt(self.high + gap).all()
-    }
+/// A rectangle of a size about its middle, turned.
+fn quad(middle: DVec2, size: DVec2, angle_deg: f64) -> Quad {
+    let turn = DVec2::from_angle(angle_deg.to_radians());
+    let half = size / 2.0;
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(x, y)| middle + turn.rotate(half * DVec2::new(x, y)))
 }
 
 /// Ticks, numbers and titles along one edge of each direction.
@@ -186,7 +199,7 @@ pub(super) fn axes(
     eye: &Eye,
     domain: &Box3,
 ) -> Result<(), PictureError> {
-    let mut places: Vec<Place> = Vec::new();
+    let mut taken: Vec<Quad> = Vec::new();
     canvas.raw(r#"<g id="axes">"#);
     for axis in [2, 0, 1] {
         let Some(edge) = chosen(edges, axis, eye) else {
@@ -214,33 +227,32 @@ pub(super) fn axes(
             let label = ticks.label(value);
             let wide = font::width(&label, LABEL)?;
             widest = widest.max(wide);
-            let place = beside(foot + out * 11.0, out, wide);
-            if places.iter().any(|other| other.meets(&place)) {
+            // Its nearest side touches the tick, from fully on one side to fully on the other as the direction turns.
+            let size = DVec2::new(wide, 15.0);
+            let middle = foot + out * (11.0 + size * 0.5);
+            let place = quad(middle, size + DVec2::new(5.0, 0.0), 0.0);
+            if taken.iter().any(|other| meet(other, &place)) {
                 continue;
             }
-            places.push(place);
-            canvas.text(&Text::new(place.low.x, place.high.y - 3.0, &label, LABEL));
+            taken.push(place);
+            let words = Text::new(middle.x, middle.y + 4.6, &label, LABEL);
+            canvas.text(&words.anchored(Anchor::Middle));
         }
         let reach = 11.0 + widest * out.x.abs() + 14.0 * out.y.abs() + 15.0;
-        title(canvas, TITLES[axis], [a, b], out, reach);
+        title(canvas, TITLES[axis], [a, b], out * reach, &mut taken)?;
     }
     canvas.raw("</g>");
     Ok(())
 }
 
-/// The box of a number whose nearest side touches a point, lying in the direction `out` from it.
-fn beside(at: DVec2, out: DVec2, wide: f64) -> Place {
-    let size = DVec2::new(wide, 15.0);
-    // From fully on one side to fully on the other as the direction turns.
-    let centre = at + out * size * 0.5;
-    let low = centre - size * 0.5;
-    Place {
-        low,
-        high: low + size,
-    }
-}
-
-fn title(canvas: &mut Canvas, text: &str, [a, b]: [DVec2; 2], out: DVec2, reach: f64) {
+/// The name of an axis along its edge, at the first place where it meets no number.
+fn title(
+    canvas: &mut Canvas,
+    text: &str,
+    [a, b]: [DVec2; 2],
+    out: DVec2,
+    taken: &mut Vec<Quad>,
+) -> Result<(), PictureError> {
     let along = b - a;
     let mut angle = along.y.atan2(along.x).to_degrees();
     // To be read from the left, and upwards where it stands nearly upright.
@@ -249,15 +261,24 @@ fn title(canvas: &mut Canvas, text: &str, [a, b]: [DVec2; 2], out: DVec2, reach:
     } else if angle <= -100.0 {
         angle += 180.0;
     }
-    let middle = (a + b) / 2.0 + out * reach;
-    // The baseline runs through the point: moved down by a third of the letters' height, seen along the text.
+    let size = DVec2::new(font::width(text, TITLE)? + 6.0, TITLE.size * 1.1);
+    let farther = [0.0, 8.0, 16.0, 24.0];
+    let places = farther.iter().flat_map(|&extra| {
+        let out = out + out.normalize_or_zero() * extra;
+        [0.5, 0.4, 0.6, 0.25, 0.75].map(|fraction| a.lerp(b, fraction) + out)
+    });
+    let free = places
+        .map(|middle| (middle, quad(middle, size, angle)))
+        .find(|(_, place)| !taken.iter().any(|other| meet(other, place)));
+    let middle = (a + b) / 2.0 + out;
+    let (middle, place) = free.unwrap_or((middle, quad(middle, size, angle)));
+    taken.push(place);
+    // The letters' middle is a third of their size above their baseline.
     let down = DVec2::from_angle(angle.to_radians()).perp();
     let at = middle + down * (TITLE.size * 0.34);
-    canvas.text(
-        &Text::new(at.x, at.y, text, TITLE)
-            .anchored(Anchor::Middle)
-            .turned(angle),
-    );
+    let words = Text::new(at.x, at.y, text, TITLE);
+    canvas.text(&words.anchored(Anchor::Middle).turned(angle));
+    Ok(())
 }
 
 /// The edge of a direction that carries its axis: on the silhouette; the lowest, or for elevations the leftmost.
@@ -333,4 +354,160 @@ pub(super) fn draw_scale_bar(canvas: &mut Canvas, at: DVec2, (length, width): (f
         canvas.text(&Text::new(at.x + x, at.y + 24.0, label, LABEL).anchored(Anchor::Middle));
     }
     canvas.raw("</g>");
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
+    use super::*;
+    use crate::export::picture::view::{Camera, Projection};
+
+    const DOMAIN: Box3 = Box3 {
+        low: DVec3::new(431_000.0, 6_520_000.0, -2460.0),
+        high: DVec3::new(432_000.0, 6_521_000.0, -2400.0),
+    };
+    const PAGE: DVec2 = DVec2::new(1070.0, 812.0);
+
+    fn eye(azimuth_deg: f64, elevation_deg: f64, vertical_exaggeration: f64) -> Eye {
+        let camera = Camera {
+            azimuth_deg,
+            elevation_deg,
+            vertical_exaggeration,
+            projection: Projection::Orthographic,
+        };
+        Eye::new(&camera, &DOMAIN).fitted(&DOMAIN, DVec2::splat(92.0), PAGE - DVec2::splat(92.0))
+    }
+
+    fn attribute(tag: &str, name: &str) -> Option<f64> {
+        let from = tag.find(&format!(" {name}=\""))? + name.len() + 3;
+        tag[from..].split('"').next()?.parse().ok()
+    }
+
+    /// Texts with their four corners.
+    fn texts(svg: &str) -> Vec<(String, [DVec2; 4])> {
+        let lines = svg.lines().filter(|line| line.starts_with("<text"));
+        lines
+            .map(|line| {
+                let words = line.split('>').nth(1).unwrap().split('<').next().unwrap();
+                let size = attribute(line, "font-size").unwrap();
+                let wide = font::width(words, regular(size)).unwrap();
+                let at = DVec2::new(attribute(line, "x").unwrap(), attribute(line, "y").unwrap());
+                let left = if line.contains("middle") {
+                    -wide / 2.0
+                } else {
+                    0.0
+                };
+                let angle = line.split("rotate(").nth(1).map_or(0.0, |rest| {
+                    rest.split(' ').next().unwrap().parse::<f64>().unwrap()
+                });
+                let turn = DVec2::from_angle(angle.to_radians());
+                let corners = [
+                    (left, 0.0),
+                    (left + wide, 0.0),
+                    (left + wide, -0.72 * size),
+                    (left, -0.72 * size),
+                ];
+                let corners = corners.map(|(x, y)| at + turn.rotate(DVec2::new(x, y)));
+                (words.to_owned(), corners)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn no_text_of_the_axes_meets_another_or_leaves_the_page_from_any_side() {
+        for azimuth in (0..360).step_by(20) {
+            for elevation in [-90.0, -60.0, -28.0, -5.0, 0.0, 12.0, 28.0, 55.0, 85.0, 90.0] {
+                let eye = eye(f64::from(azimuth), elevation, 5.0);
+                let mut canvas = Canvas::default();
+                axes(&mut canvas, &edges(&DOMAIN, &eye), &eye, &DOMAIN).unwrap();
+                let texts = texts(&canvas.finish(PAGE.x, PAGE.y, ""));
+                assert!(texts.len() > 6, "{azimuth} {elevation}: {texts:?}");
+                for (i, (words, place)) in texts.iter().enumerate() {
+                    for corner in place {
+                        assert!(
+                            corner.cmpge(DVec2::ZERO).all() && corner.cmple(PAGE).all(),
+                            "{azimuth} {elevation}: {words} at {corner}"
+                        );
+                    }
+                    for (other, there) in &texts[..i] {
+                        assert!(
+                            !meet(place, there),
+                            "{azimuth} {elevation}: {words} on {other}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn elevations_are_numbered_from_bottom_to_top() {
+        let eye = eye(215.0, 30.0, 5.0);
+        let mut canvas = Canvas::default();
+        axes(&mut canvas, &edges(&DOMAIN, &eye), &eye, &DOMAIN).unwrap();
+        let texts = texts(&canvas.finish(PAGE.x, PAGE.y, ""));
+        let height = |words: &str| {
+            let found = texts.iter().find(|(text, _)| text == words);
+            found.unwrap_or_else(|| panic!("no {words}")).1[0].y
+        };
+        assert!(height("−2400") < height("−2430") && height("−2430") < height("−2460"));
+    }
+
+    #[test]
+    fn the_north_arrow_points_north() {
+        let tip = |azimuth: f64, elevation: f64| {
+            let mut canvas = Canvas::default();
+            north_arrow(&mut canvas, DVec2::ZERO, &eye(azimuth, elevation, 1.0));
+            let svg = canvas.finish(1.0, 1.0, "");
+            let path = svg.lines().find(|line| line.starts_with("<path")).unwrap();
+            let from = path.find("d=\"M").unwrap() + 4;
+            let numbers = path[from..].split('L').next().unwrap();
+            let numbers: Vec<f64> = numbers.split(' ').map(|n| n.parse().unwrap()).collect();
+            DVec2::new(numbers[0], numbers[1])
+        };
+        let points = |(azimuth, elevation): (f64, f64), way: DVec2| {
+            let tip = tip(azimuth, elevation).normalize();
+            assert!(tip.distance(way) < 0.01, "{azimuth} {elevation}: {tip}");
+        };
+        points((180.0, 90.0), DVec2::NEG_Y);
+        points((180.0, 30.0), DVec2::NEG_Y);
+        points((90.0, 30.0), DVec2::X);
+        points((270.0, 30.0), DVec2::NEG_X);
+        points((0.0, 30.0), DVec2::Y);
+        points((180.0, -90.0), DVec2::Y);
+        points((180.0, -30.0), DVec2::Y);
+        points((90.0, -30.0), DVec2::X);
+    }
+
+    #[test]
+    fn turned_rectangles_meet_where_they_overlap() {
+        let flat = quad(DVec2::ZERO, DVec2::new(10.0, 2.0), 0.0);
+        let upright = quad(DVec2::new(4.0, 4.0), DVec2::new(10.0, 2.0), 90.0);
+        let slanted = quad(DVec2::new(7.0, 3.5), DVec2::new(6.0, 2.0), 45.0);
+        assert!(meet(&flat, &upright));
+        // Their boxes along the axes overlap; they don't.
+        assert!(!meet(&flat, &slanted));
+        assert!(!meet(
+            &flat,
+            &quad(DVec2::new(4.0, 7.0), DVec2::new(10.0, 2.0), 90.0)
+        ));
+    }
+
+    #[test]
+    fn the_part_of_an_edge_that_is_cut_away_is_found() {
+        let removed = [
+            HalfSpace {
+                normal: DVec3::X,
+                offset: 60.0,
+            },
+            HalfSpace {
+                normal: -DVec3::X,
+                offset: -20.0,
+            },
+        ];
+        let part = inside([DVec3::ZERO, DVec3::X * 100.0], &removed);
+        assert!((part[0] - 0.2).abs() < 1e-12 && (part[1] - 0.6).abs() < 1e-12);
+        let beyond = inside([DVec3::X * 70.0, DVec3::X * 90.0], &removed);
+        assert!(beyond[0] > beyond[1]);
+    }
 }
