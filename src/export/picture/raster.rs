@@ -244,7 +244,7 @@ impl Scene<'_> {
             return Ok(vec![0; rows * self.width * 4]);
         }
         let samples = self.samples(first, rows, members)?;
-        let offsets = disc(self.reach);
+        let lines = self.lines(&samples);
         let mut pixels = Vec::with_capacity(rows * self.width * 4);
         for y in 0..rows {
             for x in 0..self.width {
@@ -253,7 +253,7 @@ impl Scene<'_> {
                     for sx in 0..SAMPLES {
                         let column = x * SAMPLES + sx;
                         let row = self.reach + y * SAMPLES + sy;
-                        let color = self.color(&samples, column, row, &offsets);
+                        let color = self.color(&samples, &lines, column, row);
                         for (sum, channel) in sum.iter_mut().zip(color) {
                             *sum += channel;
                         }
@@ -342,13 +342,7 @@ impl Scene<'_> {
     }
 
     /// The colour of a sample, premultiplied, each channel 0 to 255.
-    fn color(
-        &self,
-        samples: &Samples,
-        column: usize,
-        row: usize,
-        offsets: &[(isize, isize)],
-    ) -> [f64; 4] {
+    fn color(&self, samples: &Samples, lines: &Lines, column: usize, row: usize) -> [f64; 4] {
         let at = row * samples.columns + column;
         let p = samples.place(column, row);
         let seen = samples.seen[at];
@@ -357,8 +351,8 @@ impl Scene<'_> {
         } else {
             self.shaded(&seen, p)
         };
-        if let Some(line) = self.line(samples, column, row, offsets) {
-            color = over(line, 1.0, color);
+        if let Some(line) = &lines.solid[at] {
+            color = over(channels(line.color.mixed(INK, line.shade)), 1.0, color);
         }
         let from = samples.layers.partition_point(|layer| layer.sample < at);
         let here = samples.layers[from..]
@@ -377,12 +371,8 @@ impl Scene<'_> {
                 color = over(self.lit(own, normal), opacity, color);
             }
         }
-        if let Some(&veil) = samples.veil.get(at) {
-            let differs =
-                neighbours(samples, column, row, offsets).any(|other| samples.veil[other] != veil);
-            if differs {
-                color = over(channels(INK), 0.45, color);
-            }
+        if lines.veil.get(at) == Some(&true) {
+            color = over(channels(INK), 0.45, color);
         }
         color
     }
@@ -424,42 +414,64 @@ impl Scene<'_> {
         })
     }
 
-    /// The colour of the outline at a sample, if there is one.
-    fn line(
-        &self,
-        samples: &Samples,
-        column: usize,
-        row: usize,
-        offsets: &[(isize, isize)],
-    ) -> Option<[f64; 3]> {
-        let at = row * samples.columns + column;
-        let own = samples.seen[at];
-        let mut line: Option<(f64, f64, Rgb)> = None;
-        for other in neighbours(samples, column, row, offsets) {
-            let there = samples.seen[other];
-            if own.triangle == there.triangle && own.label == there.label {
-                continue;
-            }
-            let places = [(at, &own), (other, &there)].map(|(i, seen)| {
-                (
-                    samples.place(i % samples.columns, i / samples.columns),
-                    seen,
-                )
-            });
-            if let Some(shade) = self.shade_between(places) {
-                let nearer = if own.depth <= there.depth {
-                    &own
-                } else {
-                    &there
-                };
-                // The darkest reason counts, and of equal ones the nearest body.
-                let candidate = (shade, -nearer.depth, self.base(nearer));
-                if line.is_none_or(|line| (candidate.0, candidate.1) > (line.0, line.1)) {
-                    line = Some(candidate);
+    /// The outlines: found between neighbouring samples, then drawn as wide as they shall be.
+    fn lines(&self, samples: &Samples) -> Lines {
+        let count = samples.seen.len();
+        let mut lines = Lines {
+            solid: vec![None; count],
+            veil: vec![false; samples.veil.len()],
+        };
+        let offsets = disc(self.reach - 1);
+        for row in 0..samples.rows {
+            for column in 0..samples.columns {
+                let at = row * samples.columns + column;
+                let next = [
+                    (column + 1, row, column + 1 < samples.columns),
+                    (column, row + 1, row + 1 < samples.rows),
+                ];
+                for (x, y, _) in next.into_iter().filter(|(_, _, inside)| *inside) {
+                    let other = y * samples.columns + x;
+                    let both = [(column, row), (x, y)];
+                    if let Some(line) = self.line_between(samples, both) {
+                        for place in both {
+                            for i in around(samples, place, &offsets) {
+                                // The darkest reason counts, and of equal ones the nearest body.
+                                let wins = lines.solid[i].is_none_or(|there| {
+                                    (line.shade, -line.depth) > (there.shade, -there.depth)
+                                });
+                                if wins {
+                                    lines.solid[i] = Some(line);
+                                }
+                            }
+                        }
+                    }
+                    if !lines.veil.is_empty() && samples.veil[at] != samples.veil[other] {
+                        for place in both {
+                            for i in around(samples, place, &offsets) {
+                                lines.veil[i] = true;
+                            }
+                        }
+                    }
                 }
             }
         }
-        line.map(|(shade, _, color)| channels(color.mixed(INK, shade)))
+        lines
+    }
+
+    /// The line between two neighbouring samples, if there is one.
+    fn line_between(&self, samples: &Samples, both: [(usize, usize); 2]) -> Option<Line> {
+        let [a, b] = both.map(|(column, row)| samples.seen[row * samples.columns + column]);
+        if a.triangle == b.triangle && a.label == b.label {
+            return None;
+        }
+        let [p, q] = both.map(|(column, row)| samples.place(column, row));
+        let shade = self.shade_between([(p, &a), (q, &b)])?;
+        let nearer = if a.depth <= b.depth { a } else { b };
+        Some(Line {
+            shade,
+            depth: nearer.depth,
+            color: self.base(&nearer),
+        })
     }
 
     /// How dark a line two neighbouring samples ask for.
@@ -479,26 +491,40 @@ impl Scene<'_> {
         let gap = (ta.depth_at(q) - b.depth)
             .abs()
             .min((tb.depth_at(p) - a.depth).abs());
-        let step = (q - p).length();
         let slope = ta.slope.length().min(tb.slope.length());
-        if gap > 4.0 * step * (1.0 / self.eye.scale + slope) {
+        if gap > 4.0 * (1.0 / self.eye.scale + slope) {
             return Some(0.75);
         }
         let normals = [
             ta.normal_at(p, self.eye.forward),
             tb.normal_at(q, self.eye.forward),
         ];
-        (step < 1.5 && normals[0].dot(normals[1]) < CREASE_COS).then_some(0.55)
+        (normals[0].dot(normals[1]) < CREASE_COS).then_some(0.55)
     }
 }
 
-/// Offsets of the samples within a distance, the centre left out.
+/// A line's darkness (how far its colour goes towards black), depth and the colour it darkens.
+#[derive(Clone, Copy)]
+struct Line {
+    shade: f64,
+    depth: f64,
+    color: Rgb,
+}
+
+/// The lines of a band, sample by sample.
+struct Lines {
+    solid: Vec<Option<Line>>,
+    /// Around transparent bodies; empty where there are none.
+    veil: Vec<bool>,
+}
+
+/// Offsets of the samples within a distance.
 fn disc(reach: usize) -> Vec<(isize, isize)> {
     let reach = reach.cast_signed();
     let mut offsets = Vec::new();
     for dy in -reach..=reach {
         for dx in -reach..=reach {
-            if (dx, dy) != (0, 0) && dx * dx + dy * dy <= reach * reach {
+            if dx * dx + dy * dy <= reach * reach {
                 offsets.push((dx, dy));
             }
         }
@@ -506,10 +532,9 @@ fn disc(reach: usize) -> Vec<(isize, isize)> {
     offsets
 }
 
-fn neighbours(
+fn around(
     samples: &Samples,
-    column: usize,
-    row: usize,
+    (column, row): (usize, usize),
     offsets: &[(isize, isize)],
 ) -> impl Iterator<Item = usize> {
     let (columns, rows) = (samples.columns, samples.rows);

@@ -694,7 +694,7 @@ mod tests {
             let open = Picture::of(&solid, None);
             assert!((open.count(1) / full - kept).abs() < 0.02);
             // The wire box keeps its place, so columns can be compared.
-            let middle = (picture.low[0] + picture.high[0]) / 2;
+            let middle = usize::midpoint(picture.low[0], picture.high[0]);
             assert_eq!(left, middle < 220, "{middle}");
             assert_eq!(right, middle > 220);
         }
