@@ -188,10 +188,21 @@ impl Scene {
         let mut over = Canvas::default();
         let notes = [self.subtitle.clone(), self.note()];
         let top = heading(&mut over, &self.title, &notes, page.size.x)?;
+        let strip = match page.layout {
+            Layout::Column => 0.0,
+            Layout::Strip => {
+                let all: Vec<&Swatch> = self.legend.iter().collect();
+                let legend = Legend::rows(&all, page.size.x - STRIP_LEFT - 24.0, 14.0)?;
+                legend.height.max(96.0) + 12.0
+            }
+        };
         let eye = eye.fitted(
             &self.domain,
             DVec2::new(MARGIN, top + 24.0),
-            page.size - DVec2::new(COLUMN + MARGIN, MARGIN),
+            match page.layout {
+                Layout::Column => page.size - DVec2::new(COLUMN + MARGIN, MARGIN),
+                Layout::Strip => page.size - DVec2::new(MARGIN, MARGIN + strip),
+            },
         );
 
         // Pictures in pixels, text in pixels of the page.
@@ -222,25 +233,59 @@ impl Scene {
         furniture::back(&mut under, &edges, &eye, &self.domain, &removed);
         furniture::front(&mut over, &edges, &eye, &removed);
         furniture::axes(&mut over, &edges, &eye, &self.domain)?;
-        let corner = DVec2::new(page.size.x - COLUMN - 16.0, top + 20.0);
-        furniture::north_arrow(&mut over, corner + DVec2::new(46.0, 50.0), &eye);
-        let mut legend_top = corner.y + 112.0;
+        self.key(
+            &mut over,
+            &page,
+            &eye,
+            &self.swatches(&labels),
+            [top, strip],
+        )?;
+        page.compose(&under, &image, &over)
+    }
+
+    /// North arrow, scale bar and legend, below the heading at `top` or in the lowest `strip` pixels.
+    fn key(
+        &self,
+        canvas: &mut Canvas,
+        page: &Page,
+        eye: &Eye,
+        swatches: &[&Swatch],
+        [top, strip]: [f64; 2],
+    ) -> Result<(), PictureError> {
         // In perspective there is no one scale.
-        if self.camera.projection == Projection::Orthographic {
-            let bar = furniture::scale_bar(&eye, COLUMN - 60.0);
-            let at = DVec2::new(corner.x + 6.0, legend_top);
-            furniture::draw_scale_bar(&mut over, at, bar);
-            legend_top += 56.0;
-        }
-        let swatches = self.swatches(&labels);
-        let mut legend = Legend::column(&swatches, COLUMN, 14.0)?;
-        for text in [12.0, 10.0, 8.0] {
-            if legend_top + legend.height > page.size.y {
-                legend = Legend::column(&swatches, COLUMN, text)?;
+        let bar = (self.camera.projection == Projection::Orthographic)
+            .then(|| furniture::scale_bar(eye, COLUMN - 60.0));
+        match page.layout {
+            Layout::Column => {
+                let corner = DVec2::new(page.size.x - COLUMN - 16.0, top + 20.0);
+                furniture::north_arrow(canvas, corner + DVec2::new(46.0, 50.0), eye);
+                let mut legend_top = corner.y + 112.0;
+                if let Some(bar) = bar {
+                    let at = DVec2::new(corner.x + 6.0, legend_top);
+                    furniture::draw_scale_bar(canvas, at, bar);
+                    legend_top += 56.0;
+                }
+                let mut legend = Legend::column(swatches, COLUMN, 14.0)?;
+                for text in [12.0, 10.0, 8.0] {
+                    if legend_top + legend.height > page.size.y {
+                        legend = Legend::column(swatches, COLUMN, text)?;
+                    }
+                }
+                legend.draw(canvas, DVec2::new(corner.x, legend_top));
+            }
+            Layout::Strip => {
+                let corner = DVec2::new(24.0, page.size.y - strip);
+                furniture::north_arrow(canvas, corner + DVec2::new(46.0, 46.0), eye);
+                if let Some(bar) = bar {
+                    let at = corner + DVec2::new(112.0, 24.0);
+                    furniture::draw_scale_bar(canvas, at, bar);
+                }
+                let width = page.size.x - STRIP_LEFT - 24.0;
+                let legend = Legend::rows(swatches, width, 14.0)?;
+                legend.draw(canvas, DVec2::new(STRIP_LEFT, corner.y + 20.0));
             }
         }
-        legend.draw(&mut over, DVec2::new(corner.x, legend_top));
-        page.compose(&under, &image, &over)
+        Ok(())
     }
 
     fn color(&self, volume: &Volume) -> Rgb {
@@ -439,21 +484,40 @@ const MARGIN: f64 = 92.0;
 /// Width of the column with arrow, scale and legend.
 const COLUMN: f64 = 230.0;
 
-/// The page that text is laid out on: about 1400 by 900, whatever the number of pixels.
+/// Where the legend begins in a strip, beside arrow and scale.
+const STRIP_LEFT: f64 = 360.0;
+
+/// Where arrow, scale and legend stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Layout {
+    /// To the right of a wide picture.
+    Column,
+    /// Below a square or high one.
+    Strip,
+}
+
+/// The page that text is laid out on: about 1300 by 800, or 900 by 900, whatever the number of pixels.
 struct Page {
     size: DVec2,
     scale: f64,
     pixels: [u32; 2],
+    layout: Layout,
 }
 
 impl Page {
     fn new(width: u32, height: u32) -> Self {
         let pixels = DVec2::new(f64::from(width), f64::from(height));
-        let scale = (pixels.x / 1300.0).min(pixels.y / 700.0);
+        let (layout, least) = if pixels.x > 1.3 * pixels.y {
+            (Layout::Column, DVec2::new(1300.0, 700.0))
+        } else {
+            (Layout::Strip, DVec2::new(900.0, 700.0))
+        };
+        let scale = (pixels / least).min_element();
         Self {
             size: pixels / scale,
             scale,
             pixels: [width, height],
+            layout,
         }
     }
 
