@@ -1,4 +1,4 @@
-//! What stands around a view: the domain's edges, its axes with ticks, the north arrow and the scale bar.
+//! What stands around a view: the domain's edges, its axes with ticks and the north arrow.
 
 use glam::{DVec2, DVec3};
 
@@ -329,30 +329,6 @@ pub(super) fn north_arrow(canvas: &mut Canvas, middle: DVec2, eye: &Eye) {
     canvas.polygon(&[tip, notch, page(0.45, -0.95)], Rgb(255, 255, 255), edge);
     let letter = tip + (tip - middle).normalize_or_zero() * 13.0;
     canvas.text(&Text::new(letter.x, letter.y + 6.0, "N", bold(17.0)).anchored(Anchor::Middle));
-    canvas.raw("</g>");
-}
-
-/// A round length across the view, at most `limit` pixels long: its length in metres and in pixels.
-pub(super) fn scale_bar(eye: &Eye, limit: f64) -> (f64, f64) {
-    let length = round_down(limit / eye.scale);
-    (length, length * eye.scale)
-}
-
-pub(super) fn draw_scale_bar(canvas: &mut Canvas, at: DVec2, (length, width): (f64, f64)) {
-    canvas.raw(r#"<g id="scale-bar">"#);
-    let half = DVec2::new(width / 2.0, 7.0);
-    let edge = Some(pen(INK, 1.0));
-    canvas.rect(at, half, Some(INK), edge);
-    let second = at + DVec2::new(half.x, 0.0);
-    canvas.rect(second, half, Some(Rgb(255, 255, 255)), edge);
-    let end = if length >= 2000.0 {
-        format!("{} km", length / 1000.0)
-    } else {
-        format!("{length} m")
-    };
-    for (x, label) in [(0.0, "0"), (width, end.as_str())] {
-        canvas.text(&Text::new(at.x + x, at.y + 24.0, label, LABEL).anchored(Anchor::Middle));
-    }
     canvas.raw("</g>");
 }
 

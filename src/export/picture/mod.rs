@@ -10,13 +10,18 @@
 
 mod camera;
 mod canvas;
+mod check;
 mod face;
 mod font;
 mod furniture;
 mod legend;
 mod outline;
+mod page;
+mod plot;
 mod raster;
+mod scale_bar;
 pub mod section;
+mod shading;
 mod solid;
 mod ticks;
 pub mod view;
@@ -132,10 +137,10 @@ pub enum PictureError {
         /// How many there are.
         count: usize,
     },
-    /// A line with too few points or with two equal points in a row.
+    /// A line or box that makes no picture: too few points, nothing left.
     #[error("{what}: {problem}")]
-    Line {
-        /// Which line.
+    Shape {
+        /// Which line or box.
         what: String,
         /// What is wrong and what to do.
         problem: &'static str,
@@ -145,91 +150,9 @@ pub enum PictureError {
     Render(String),
 }
 
-/// `Ok` when `value` is finite.
-fn finite(what: &str, value: f64) -> Result<f64, PictureError> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(PictureError::NotFinite {
-            what: what.to_owned(),
-            value,
-        })
-    }
-}
-
-/// `Ok` when `value` is a number from `low` to `high`.
-fn within(what: &str, value: f64, low: f64, high: f64) -> Result<f64, PictureError> {
-    finite(what, value)?;
-    if (low..=high).contains(&value) {
-        Ok(value)
-    } else {
-        Err(PictureError::OutOfRange {
-            what: what.to_owned(),
-            value,
-            low,
-            high,
-        })
-    }
-}
-
-/// `Ok` when the range is finite and its length is above rounding of its ends.
-fn range(what: &str, [low, high]: [f64; 2]) -> Result<(), PictureError> {
-    finite(what, low)?;
-    finite(what, high)?;
-    // 1e-9 of the ends' size: a metre at one thousand kilometres from the origin, to a micrometre.
-    if high - low > 1e-9 * low.abs().max(high.abs()) && high - low < 1e12 {
-        Ok(())
-    } else {
-        Err(PictureError::EmptyRange {
-            what: what.to_owned(),
-            low,
-            high,
-        })
-    }
-}
-
-/// `Ok` when every volume has a swatch.
-fn check_swatches(volumes: &[Volume], legend: &[Swatch]) -> Result<(), PictureError> {
-    for volume in volumes {
-        if volume.swatch >= legend.len() {
-            return Err(PictureError::NoSuchEntry {
-                what: format!("the swatch of volume {}", volume.name),
-                index: volume.swatch,
-                count: legend.len(),
-            });
-        }
-    }
-    Ok(())
-}
-
 /// Most pixels along a side of a PNG.
 pub const LARGEST_SIDE: u32 = 16_384;
 /// Fewest pixels along a side of a PNG: below this nothing can be read.
 pub const SMALLEST_SIDE: u32 = 64;
 /// Most pixels of a PNG (a quarter of a gigabyte while it is drawn).
 pub const MOST_PIXELS: u64 = 1 << 26;
-
-/// `Ok` when a picture of this size can be drawn.
-fn size(width: u32, height: u32) -> Result<(), PictureError> {
-    let sides = [f64::from(SMALLEST_SIDE), f64::from(LARGEST_SIDE)];
-    within(
-        "the picture's width in pixels",
-        f64::from(width),
-        sides[0],
-        sides[1],
-    )?;
-    within(
-        "the picture's height in pixels",
-        f64::from(height),
-        sides[0],
-        sides[1],
-    )?;
-    let pixels = u64::from(width) * u64::from(height);
-    within(
-        "the picture's number of pixels",
-        pixels as f64,
-        1.0,
-        MOST_PIXELS as f64,
-    )?;
-    Ok(())
-}

@@ -8,21 +8,20 @@
 use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
-use resvg::tiny_skia::Pixmap;
 
 use super::{
-    PictureError, Rgb, Swatch, Volume,
+    PictureError, Rgb, Swatch, Volume, byte,
     camera::Eye,
     canvas::Canvas,
+    check::size,
     face::{self, Asked, OPEN},
-    finite, font, furniture,
+    furniture,
     legend::Legend,
-    range,
+    page::{Layout, Page},
+    plot::heading,
     raster::{self, Drawing, Object, Skin},
-    section::heading,
-    size,
+    scale_bar::ScaleBar,
     solid::{HalfSpace, Vertex, removed, triangles},
-    within,
 };
 
 /// Who owns a point: an index into [`Scene::volumes`], or `None` where nothing shall be shown. Asked from several
@@ -254,7 +253,7 @@ impl Scene {
     ) -> Result<(), PictureError> {
         // In perspective there is no one scale.
         let bar = (self.camera.projection == Projection::Orthographic)
-            .then(|| furniture::scale_bar(eye, COLUMN - 60.0));
+            .then(|| ScaleBar::new(eye.scale, COLUMN - 60.0));
         match page.layout {
             Layout::Column => {
                 let corner = DVec2::new(page.size.x - COLUMN - 16.0, top + 20.0);
@@ -262,7 +261,7 @@ impl Scene {
                 let mut legend_top = corner.y + 112.0;
                 if let Some(bar) = bar {
                     let at = DVec2::new(corner.x + 6.0, legend_top);
-                    furniture::draw_scale_bar(canvas, at, bar);
+                    bar.draw(canvas, at);
                     legend_top += 56.0;
                 }
                 let mut legend = Legend::column(swatches, COLUMN, 14.0)?;
@@ -278,7 +277,7 @@ impl Scene {
                 furniture::north_arrow(canvas, corner + DVec2::new(46.0, 46.0), eye);
                 if let Some(bar) = bar {
                     let at = corner + DVec2::new(112.0, 24.0);
-                    furniture::draw_scale_bar(canvas, at, bar);
+                    bar.draw(canvas, at);
                 }
                 let width = page.size.x - STRIP_LEFT - 24.0;
                 let legend = Legend::rows(swatches, width, 14.0)?;
@@ -352,7 +351,7 @@ impl Scene {
             vertical_exaggeration,
             ..
         } = self.camera;
-        let sixteenth = super::byte(azimuth_deg.rem_euclid(360.0) / 22.5);
+        let sixteenth = byte(azimuth_deg.rem_euclid(360.0) / 22.5);
         let from = WINDS[usize::from(sixteenth) % 16];
         let height = elevation_deg.abs().round();
         let viewpoint = if height >= 90.0 {
@@ -378,105 +377,6 @@ impl Scene {
             format!("{viewpoint} · vertical exaggeration {vertical_exaggeration}×")
         }
     }
-
-    fn check(&self) -> Result<(), PictureError> {
-        let Box3 { low, high } = self.domain;
-        range("the domain's range of eastings", [low.x, high.x])?;
-        range("the domain's range of northings", [low.y, high.y])?;
-        range("the domain's range of elevations", [low.z, high.z])?;
-        super::check_swatches(&self.volumes, &self.legend)?;
-        self.check_camera()?;
-        self.check_cut()?;
-        for (i, part) in self.parts.iter().enumerate() {
-            self.check_part(i, part)?;
-        }
-        Ok(())
-    }
-
-    fn check_camera(&self) -> Result<(), PictureError> {
-        let camera = &self.camera;
-        within("the camera's azimuth", camera.azimuth_deg, -360.0, 720.0)?;
-        within("the camera's elevation", camera.elevation_deg, -90.0, 90.0)?;
-        within(
-            "the vertical exaggeration",
-            camera.vertical_exaggeration,
-            1e-3,
-            1e4,
-        )?;
-        if let Projection::Perspective { distance } = camera.projection {
-            within("the viewer's distance in diagonals", distance, 1.5, 100.0)?;
-        }
-        Ok(())
-    }
-
-    fn check_cut(&self) -> Result<(), PictureError> {
-        match self.cut {
-            None => Ok(()),
-            Some(Cut::Plane { point, removes }) => {
-                for value in [point.to_array(), removes.to_array()].concat() {
-                    finite("a coordinate of the cutting plane", value)?;
-                }
-                within(
-                    "the length of the cutting plane's direction",
-                    removes.length(),
-                    1e-9,
-                    1e12,
-                )?;
-                Ok(())
-            }
-            Some(Cut::Corner { low, high }) => {
-                range("the removed box's range of eastings", [low.x, high.x])?;
-                range("the removed box's range of northings", [low.y, high.y])?;
-                range("the removed box's range of elevations", [low.z, high.z])
-            }
-        }
-    }
-
-    fn check_part(&self, i: usize, part: &Part) -> Result<(), PictureError> {
-        let Some(volume) = self.volumes.get(part.volume) else {
-            return Err(PictureError::NoSuchEntry {
-                what: format!("part {i}"),
-                index: part.volume,
-                count: self.volumes.len(),
-            });
-        };
-        let name = &volume.name;
-        within(&format!("the opacity of {name}"), part.opacity, 0.0, 1.0)?;
-        let reach = 0.25 * (self.domain.high - self.domain.low);
-        for (j, &position) in part.positions.iter().enumerate() {
-            for axis in 0..3 {
-                // Far outside the domain there is no page to draw on.
-                within(
-                    &format!("coordinate {axis} of point {j} of {name}"),
-                    position[axis],
-                    self.domain.low[axis] - reach[axis],
-                    self.domain.high[axis] + reach[axis],
-                )?;
-            }
-        }
-        let normals = part.normals.as_deref().unwrap_or_default();
-        for (j, normal) in normals.iter().enumerate() {
-            for axis in 0..3 {
-                finite(&format!("normal {j} of {name}"), normal[axis])?;
-            }
-        }
-        let points = match &part.normals {
-            Some(normals) => normals.len().min(part.positions.len()),
-            None => part.positions.len(),
-        };
-        for (j, triangle) in part.triangles.iter().enumerate() {
-            for &corner in triangle {
-                if corner as usize >= points {
-                    return Err(PictureError::NoSuchEntry {
-                        what: format!("triangle {j} of {name}"),
-                        index: corner as usize,
-                        count: points,
-                    });
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Room around the domain for ticks and their numbers, in pixels of the page.
@@ -487,72 +387,11 @@ const COLUMN: f64 = 230.0;
 /// Where the legend begins in a strip, beside arrow and scale.
 const STRIP_LEFT: f64 = 360.0;
 
-/// Where arrow, scale and legend stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Layout {
-    /// To the right of a wide picture.
-    Column,
-    /// Below a square or high one.
-    Strip,
-}
-
-/// The page that text is laid out on: about 1300 by 800, or 900 by 900, whatever the number of pixels.
-struct Page {
-    size: DVec2,
-    scale: f64,
-    pixels: [u32; 2],
-    layout: Layout,
-}
-
-impl Page {
-    fn new(width: u32, height: u32) -> Self {
-        let pixels = DVec2::new(f64::from(width), f64::from(height));
-        let (layout, least) = if pixels.x > 1.3 * pixels.y {
-            (Layout::Column, DVec2::new(1300.0, 700.0))
-        } else {
-            (Layout::Strip, DVec2::new(900.0, 700.0))
-        };
-        let scale = (pixels / least).min_element();
-        Self {
-            size: pixels / scale,
-            scale,
-            pixels: [width, height],
-            layout,
-        }
-    }
-
-    /// White paper, then `under`, the image (premultiplied RGBA) and `over`.
-    fn compose(
-        &self,
-        under: &Canvas,
-        image: &[u8],
-        over: &Canvas,
-    ) -> Result<Vec<u8>, PictureError> {
-        let [width, height] = self.pixels;
-        let mut pixels = Pixmap::new(width, height)
-            .ok_or_else(|| PictureError::Render(format!("no image of {width} × {height}")))?;
-        pixels.fill(resvg::tiny_skia::Color::WHITE);
-        let svg = |canvas: &Canvas| canvas.finish(self.size.x, self.size.y, "");
-        font::draw(&svg(under), self.scale, &mut pixels)?;
-        for (below, above) in pixels
-            .data_mut()
-            .chunks_exact_mut(4)
-            .zip(image.chunks_exact(4))
-        {
-            let through = 1.0 - f64::from(above[3]) / 255.0;
-            for (below, above) in below.iter_mut().zip(above) {
-                *below = super::byte(f64::from(*above) + through * f64::from(*below));
-            }
-        }
-        font::draw(&svg(over), self.scale, &mut pixels)?;
-        font::png(&pixels)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
     use super::*;
+    use resvg::tiny_skia::Pixmap;
 
     const GREY_MUD: Rgb = Rgb(0x50, 0x90, 0x50);
     const SAND: Rgb = Rgb(0xe0, 0x40, 0x30);
@@ -882,7 +721,7 @@ mod tests {
     #[test]
     fn what_cannot_be_drawn_is_refused_with_its_place() {
         type Break = fn(&mut Scene);
-        let broken: [(Break, &str); 13] = [
+        let broken: [(Break, &str); 14] = [
             (|s| s.domain.high.z = 0.0, "range of elevations"),
             (|s| s.domain.low.x = f64::NAN, "range of eastings is NaN"),
             (|s| s.camera.azimuth_deg = f64::INFINITY, "azimuth is inf"),
@@ -918,6 +757,15 @@ mod tests {
                     });
                 },
                 "direction is 0",
+            ),
+            (
+                |s| {
+                    s.cut = Some(Cut::Corner {
+                        low: s.domain.low,
+                        high: s.domain.high,
+                    });
+                },
+                "leaves nothing",
             ),
         ];
         let whole = |_: DVec3| Some(0);
