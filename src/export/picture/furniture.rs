@@ -9,7 +9,7 @@ use super::{
     face,
     font::{self, Style, bold, regular},
     solid::HalfSpace,
-    ticks::{Ticks, round_down},
+    ticks::Ticks,
     view::Box3,
 };
 
