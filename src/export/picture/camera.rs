@@ -69,7 +69,8 @@ impl Eye {
             greatest = greatest.max(p);
         }
         let span = (greatest - least).max(DVec2::splat(1e-12 * self.diagonal));
-        let room = (high - low) / span;
+        // A heading or legend that leaves no room still leaves a picture.
+        let room = (high - low).max(DVec2::splat(16.0)) / span;
         self.scale = room.min_element();
         self.origin = (low + high) / 2.0 - (least + greatest) / 2.0 * self.scale;
         self

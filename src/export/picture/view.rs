@@ -158,7 +158,7 @@ pub struct Scene {
     pub parts: Vec<Part>,
     /// What parts and the owner function refer to.
     pub volumes: Vec<Volume>,
-    /// Facies and their colours; the legend shows those that are drawn, in this order.
+    /// Facies and their colours; the legend shows those that are drawn, in this order. It has room for about fifty.
     pub legend: Vec<Swatch>,
     /// The viewpoint.
     pub camera: Camera,
@@ -191,8 +191,8 @@ impl Scene {
             Layout::Column => 0.0,
             Layout::Strip => {
                 let all: Vec<&Swatch> = self.legend.iter().collect();
-                let legend = Legend::rows(&all, page.size.x - STRIP_LEFT - 24.0, 14.0)?;
-                legend.height.max(96.0) + 12.0
+                let legend = strip_legend(&page, &all)?;
+                (legend.height + 32.0).max(108.0)
             }
         };
         let eye = eye.fitted(
@@ -279,8 +279,7 @@ impl Scene {
                     let at = corner + DVec2::new(112.0, 24.0);
                     bar.draw(canvas, at);
                 }
-                let width = page.size.x - STRIP_LEFT - 24.0;
-                let legend = Legend::rows(swatches, width, 14.0)?;
+                let legend = strip_legend(page, swatches)?;
                 legend.draw(canvas, DVec2::new(STRIP_LEFT, corner.y + 20.0));
             }
         }
@@ -386,6 +385,18 @@ const COLUMN: f64 = 230.0;
 
 /// Where the legend begins in a strip, beside arrow and scale.
 const STRIP_LEFT: f64 = 360.0;
+
+/// The legend of a strip, in text that leaves the picture at least half of the page where it can.
+fn strip_legend<'a>(page: &Page, swatches: &[&'a Swatch]) -> Result<Legend<'a>, PictureError> {
+    let width = page.size.x - STRIP_LEFT - 24.0;
+    let mut legend = Legend::rows(swatches, width, 14.0)?;
+    for text in [12.0, 10.0, 8.0] {
+        if legend.height > 0.45 * page.size.y {
+            legend = Legend::rows(swatches, width, text)?;
+        }
+    }
+    Ok(legend)
+}
 
 #[cfg(test)]
 mod tests {
