@@ -1,0 +1,3 @@
+//! What the model is written to: one output format per file.
+
+pub mod picture;
