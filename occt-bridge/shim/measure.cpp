@@ -12,6 +12,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_Surface.hxx>
 #include <IntTools_Context.hxx>
 #include <TopExp.hxx>
@@ -129,7 +130,15 @@ rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double e
   for_each_index(solids.faces.size(), parallel, [&](std::size_t i) {
     const TopoDS_Face face = TopoDS::Face(solids.faces[i].Oriented(TopAbs_FORWARD));
     const Integral area = face_area(face, eps);
-    const Integral flux = face_flux(face, at, eps);
+    const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(BRep_Tool::Surface(face));
+    Integral flux{0.0, 0.0};
+    if (plane.IsNull()) {
+      flux = face_flux(face, at, eps);
+    } else {
+      // A pyramid: no second integral.
+      const gp_Dir normal = plane->Position().XDirection().Crossed(plane->Position().YDirection());
+      flux.value = area.value * gp_Vec(at, plane->Location()).Dot(gp_Vec(normal)) / 3.0;
+    }
     results[i] = FaceIntegralData{area.value, flux.value, std::max(area.error, flux.error), largest_tolerance(face)};
   });
   rust::Vec<FaceIntegralData> out;

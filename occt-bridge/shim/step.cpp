@@ -41,7 +41,6 @@
 #include <TransferBRep.hxx>
 #include <TransferBRep_ShapeMapper.hxx>
 #include <Transfer_FinderProcess.hxx>
-#include <UnitsMethods_LengthUnit.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -90,7 +89,6 @@ class Document {
   Document() {
     application_ = XCAFApp_Application::GetApplication();
     application_->NewDocument("MDTV-XCAF", document_);
-    XCAFDoc_DocumentTool::SetLengthUnit(document_, 1.0, UnitsMethods_LengthUnit_Meter);
   }
   ~Document() {
     try {

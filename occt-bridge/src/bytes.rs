@@ -6,7 +6,7 @@ pub(crate) struct Writer {
 }
 
 impl Writer {
-    pub(crate) fn new(magic: &[u8; 8]) -> Self {
+    pub(crate) fn new(magic: [u8; 8]) -> Self {
         Self {
             bytes: magic.to_vec(),
         }
@@ -39,14 +39,14 @@ pub(crate) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub(crate) fn new(bytes: &'a [u8], magic: &[u8; 8]) -> Result<Self, String> {
+    pub(crate) fn new(bytes: &'a [u8], magic: [u8; 8]) -> Result<Self, String> {
         let Some((content, sum)) = bytes.split_last_chunk::<8>() else {
             return Err("the bytes end too early".to_owned());
         };
-        let Some(rest) = content.strip_prefix(magic) else {
+        let Some(rest) = content.strip_prefix(&magic) else {
             return Err(format!(
                 "the bytes do not start with {}",
-                String::from_utf8_lossy(magic)
+                String::from_utf8_lossy(&magic)
             ));
         };
         if checksum(content) != u64::from_le_bytes(*sum) {

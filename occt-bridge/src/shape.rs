@@ -8,7 +8,7 @@ use crate::bytes::{Reader, Writer};
 use crate::error::{BridgeError, from_kernel, input};
 use crate::ffi::bridge;
 
-const MAGIC: &[u8; 8] = b"CLNSHP01";
+const MAGIC: [u8; 8] = *b"CLNSHP01";
 
 /// A shape. Clones share the same geometry; nothing in this crate changes a shape after it was made.
 pub struct Shape {

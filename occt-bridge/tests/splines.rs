@@ -170,7 +170,11 @@ fn crossing_channels_fill_the_block_exactly_and_pass_every_check() {
     close(v.iter().sum(), BLOCK, 1e-9);
     // The same volumes from each solid by itself, and from the owner's point of view: the youngest is whole within the block.
     for (i, v) in v.iter().enumerate() {
-        close(volume(&solids.shape_of(i).unwrap(), 1e-9).unwrap(), *v, 1e-9);
+        close(
+            volume(&solids.shape_of(i).unwrap(), 1e-9).unwrap(),
+            *v,
+            1e-9,
+        );
     }
     // Faces of one owner only: the block's surface.
     let outer: f64 = solids
@@ -185,7 +189,10 @@ fn crossing_channels_fill_the_block_exactly_and_pass_every_check() {
         assert!(matches!(face.solids.len(), 1 | 2));
     }
     assert!(defects(&solids, Threads::All).unwrap().is_empty());
-    assert_eq!(p.crossing_arguments(), [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]);
+    assert_eq!(
+        p.crossing_arguments(),
+        [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
+    );
     for cell in p.cells() {
         for (face, reversed) in &cell.faces {
             for origin in &p.faces()[*face].origins {
@@ -210,13 +217,19 @@ fn solids_go_through_bytes_exactly() {
     assert_eq!(solids.faces(), back.faces());
     assert_eq!(solids.edge_count().unwrap(), back.edge_count().unwrap());
     assert!(back.to_bytes().unwrap() == bytes);
-    let integrals = |s: &Solids| face_integrals(s, 1e-9, [500.0, 500.0, -30.0], Threads::All).unwrap();
+    let integrals =
+        |s: &Solids| face_integrals(s, 1e-9, [500.0, 500.0, -30.0], Threads::All).unwrap();
     assert_eq!(integrals(&solids), integrals(&back));
     assert!(defects(&back, Threads::All).unwrap().is_empty());
     // Faces are numbered the same way in the shapes and in the tables.
+    let of_face = integrals(&back);
     for (i, solid) in back.solids().iter().enumerate() {
-        let by_table: f64 = solid.faces.iter().map(|(f, _)| integrals(&back)[*f].area).sum();
-        close(area(&back.shape_of(i).unwrap(), 1e-9).unwrap(), by_table, 1e-9);
+        let by_table: f64 = solid.faces.iter().map(|(f, _)| of_face[*f].area).sum();
+        close(
+            area(&back.shape_of(i).unwrap(), 1e-9).unwrap(),
+            by_table,
+            1e-9,
+        );
     }
 }
 
@@ -225,8 +238,17 @@ fn broken_bytes_are_an_input_error() {
     let bytes = youngest_in_first(&cut(&[box_solid([0.0; 3], [1.0; 3]).unwrap()]))
         .to_bytes()
         .unwrap();
-    for broken in [&bytes[..0], &bytes[..7], &bytes[..40], &bytes[1..], &bytes[..bytes.len() - 1]] {
-        assert!(matches!(Solids::from_bytes(broken), Err(BridgeError::Input { .. })));
+    for broken in [
+        &bytes[..0],
+        &bytes[..7],
+        &bytes[..40],
+        &bytes[1..],
+        &bytes[..bytes.len() - 1],
+    ] {
+        assert!(matches!(
+            Solids::from_bytes(broken),
+            Err(BridgeError::Input { .. })
+        ));
     }
     let mut garbage = bytes.clone();
     let end = garbage.len();
@@ -282,14 +304,27 @@ fn samples_lie_on_their_face_with_its_solids_on_either_side() {
         sampled[sample.face] += 1;
         let step = |d: f64| std::array::from_fn(|i| sample.point[i] + d * sample.normal[i]);
         for (s, classifier) in classifiers.iter_mut().enumerate() {
-            let Some((_, reversed)) = solids.solids()[s].faces.iter().find(|f| f.0 == sample.face) else {
-                assert_ne!(classifier.contains(sample.point, 1e-6).unwrap(), Position::In);
+            let Some((_, reversed)) = solids.solids()[s].faces.iter().find(|f| f.0 == sample.face)
+            else {
+                assert_ne!(
+                    classifier.contains(sample.point, 1e-6).unwrap(),
+                    Position::In
+                );
                 continue;
             };
-            assert_eq!(classifier.contains(sample.point, 1e-5).unwrap(), Position::On);
+            assert_eq!(
+                classifier.contains(sample.point, 1e-5).unwrap(),
+                Position::On
+            );
             let inwards = if *reversed { 1e-3 } else { -1e-3 };
-            assert_eq!(classifier.contains(step(inwards), 1e-7).unwrap(), Position::In);
-            assert_eq!(classifier.contains(step(-inwards), 1e-7).unwrap(), Position::Out);
+            assert_eq!(
+                classifier.contains(step(inwards), 1e-7).unwrap(),
+                Position::In
+            );
+            assert_eq!(
+                classifier.contains(step(-inwards), 1e-7).unwrap(),
+                Position::Out
+            );
         }
     }
     assert!(sampled.iter().all(|n| *n >= 1), "{sampled:?}");
@@ -298,15 +333,24 @@ fn samples_lie_on_their_face_with_its_solids_on_either_side() {
 
 #[test]
 fn a_classifier_tells_in_from_out_and_refuses_what_is_no_point() {
-    let mut c = Classifier::new(&solid(&ellipsoid_topology([0.0; 3], [3.0, 2.0, 1.0])).unwrap()).unwrap();
+    let mut c =
+        Classifier::new(&solid(&ellipsoid_topology([0.0; 3], [3.0, 2.0, 1.0])).unwrap()).unwrap();
     for i in 0..200 {
         let t = f64::from(i);
-        let p: [f64; 3] = [4.0 * (0.7 * t).sin(), 3.0 * (1.3 * t).sin(), 2.0 * (2.1 * t).sin()];
+        let p: [f64; 3] = [
+            4.0 * (0.7 * t).sin(),
+            3.0 * (1.3 * t).sin(),
+            2.0 * (2.1 * t).sin(),
+        ];
         let level = (p[0] / 3.0).powi(2) + (p[1] / 2.0).powi(2) + p[2].powi(2);
         if (level - 1.0).abs() < 1e-3 {
             continue;
         }
-        let exact = if level < 1.0 { Position::In } else { Position::Out };
+        let exact = if level < 1.0 {
+            Position::In
+        } else {
+            Position::Out
+        };
         assert_eq!(c.contains(p, 1e-7).unwrap(), exact, "{p:?}");
     }
     assert_eq!(c.contains([3.0, 0.0, 0.0], 1e-6).unwrap(), Position::On);
@@ -356,8 +400,26 @@ fn triangles_close_a_solid_and_come_near_its_volume() {
     let meshes = triangulate_solids(&solids, &options).unwrap();
     assert_eq!(meshes.len(), solids.faces().len());
     assert_eq!(meshes, triangulate_solids(&solids, &one).unwrap());
-    assert!(triangulate(&shape, &MeshOptions { deflection: 0.0, ..options }).is_err());
-    assert!(triangulate(&shape, &MeshOptions { angle: f64::NAN, ..options }).is_err());
+    assert!(
+        triangulate(
+            &shape,
+            &MeshOptions {
+                deflection: 0.0,
+                ..options
+            }
+        )
+        .is_err()
+    );
+    assert!(
+        triangulate(
+            &shape,
+            &MeshOptions {
+                angle: f64::NAN,
+                ..options
+            }
+        )
+        .is_err()
+    );
 }
 
 #[test]
@@ -370,12 +432,20 @@ fn integrals_and_bounds_refuse_what_cannot_be_measured() {
     }
     assert!(face_integrals(&solids, 1e-6, [f64::NAN; 3], Threads::One).is_err());
     let face = solids.face_shape(0).unwrap();
-    assert!(volume(&face, 1e-9).unwrap_err().to_string().contains("no solid"));
+    assert!(
+        volume(&face, 1e-9)
+            .unwrap_err()
+            .to_string()
+            .contains("no solid")
+    );
     close(area(&face, 1e-9).unwrap(), 1.0, 1e-12);
     assert!(solids.shape_of(1).is_err() && solids.face_shape(6).is_err());
     // Tight, though the poles reach further.
     let b = bounds(&solid(&cylinder_topology([0.0, 1.0], [0.0, 0.0], 2.0)).unwrap()).unwrap();
-    assert!((b.max[1] - 2.0).abs() < 1e-6 && (b.min[2] + 2.0).abs() < 1e-6, "{b:?}");
+    assert!(
+        (b.max[1] - 2.0).abs() < 1e-6 && (b.min[2] + 2.0).abs() < 1e-6,
+        "{b:?}"
+    );
 }
 
 #[test]

@@ -79,13 +79,13 @@ fn belt() -> StepDocument {
 fn crowd() -> StepDocument {
     let children = (0..40)
         .map(|i| {
-            let x = 3.0 * f64::from(i);
+            let x = 3.0 * i as f64;
             let mut node = part(
                 &format!("part-{i}"),
-                [[9, 9, 9], [99, 9, 9], [9, 99, 9]][i as usize % 3],
+                [[9, 9, 9], [99, 9, 9], [9, 99, 9]][i % 3],
                 vec![box_solid([x, 0.0, 0.0], [x + 1.0, 1.0, 1.0]).unwrap()],
             );
-            node.layer = Some(["sand", "mud"][i as usize % 2].to_owned());
+            node.layer = Some(["sand", "mud"][i % 2].to_owned());
             node
         })
         .collect();

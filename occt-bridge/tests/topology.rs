@@ -3,6 +3,7 @@
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::panic,
+    clippy::too_many_lines,
     reason = "tests"
 )]
 
@@ -46,9 +47,18 @@ fn a_box_has_its_volume_area_bounds_and_faces_in_the_documented_order() {
     let shape = box_solid([-1.0, 2.0, 3.0], [4.0, 4.0, 10.0]).unwrap();
     assert_eq!(shape.kind().unwrap(), ShapeKind::Solid);
     close(volume(&shape, 1e-9).unwrap(), 70.0, 1e-13);
-    close(area(&shape, 1e-9).unwrap(), 2.0 * (10.0 + 35.0 + 14.0), 1e-13);
+    close(
+        area(&shape, 1e-9).unwrap(),
+        2.0 * (10.0 + 35.0 + 14.0),
+        1e-13,
+    );
     let b = bounds(&shape).unwrap();
-    for (found, exact) in b.min.iter().chain(&b.max).zip([-1.0, 2.0, 3.0, 4.0, 4.0, 10.0]) {
+    for (found, exact) in b
+        .min
+        .iter()
+        .chain(&b.max)
+        .zip([-1.0, 2.0, 3.0, 4.0, 4.0, 10.0])
+    {
         assert!((found - exact).abs() < 1e-7, "{b:?}");
     }
     let solids = Solids::from_shapes(&[shape]).unwrap();
@@ -63,7 +73,11 @@ fn a_box_has_its_volume_area_bounds_and_faces_in_the_documented_order() {
 #[test]
 fn a_rational_ellipsoid_has_its_closed_form_volume() {
     let shape = solid(&ellipsoid_topology([10.0, -3.0, 2.0], [3.0, 2.0, 1.5])).unwrap();
-    close(volume(&shape, RATIONAL).unwrap(), 4.0 / 3.0 * PI * 9.0, 1e-9);
+    close(
+        volume(&shape, RATIONAL).unwrap(),
+        4.0 / 3.0 * PI * 9.0,
+        1e-9,
+    );
     let sphere = solid(&ellipsoid_topology([0.0; 3], [2.0; 3])).unwrap();
     close(area(&sphere, RATIONAL).unwrap(), 16.0 * PI, 1e-9);
     let solids = Solids::from_shapes(&[shape]).unwrap();
@@ -74,7 +88,11 @@ fn a_rational_ellipsoid_has_its_closed_form_volume() {
 #[test]
 fn a_rational_cylinder_has_its_closed_form_volume() {
     let shape = solid(&cylinder_topology([-1.0, 3.0], [5.0, 6.0], 0.75)).unwrap();
-    close(volume(&shape, RATIONAL).unwrap(), PI * 0.75 * 0.75 * 4.0, 1e-9);
+    close(
+        volume(&shape, RATIONAL).unwrap(),
+        PI * 0.75 * 0.75 * 4.0,
+        1e-9,
+    );
 }
 
 #[test]
@@ -133,7 +151,11 @@ fn section_area(y: &[f64; 7], z: &[f64; 7]) -> f64 {
         d[3]
     };
     let h = 1e-4;
-    let nodes = [(-(0.6_f64.sqrt()), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 9.0)];
+    let nodes = [
+        (-(0.6_f64.sqrt()), 5.0 / 9.0),
+        (0.0, 8.0 / 9.0),
+        (0.6_f64.sqrt(), 5.0 / 9.0),
+    ];
     let mut sum = 0.0;
     for span in 3..7 {
         let (a, b) = (knots[span], knots[span + 1]);
@@ -174,7 +196,10 @@ fn every_misuse_names_the_entry_and_the_value() {
         let mut t = good();
         change(&mut t);
         let message = refused(&t);
-        assert!(words.iter().all(|w| message.contains(w)), "{message:?} lacks {words:?}");
+        assert!(
+            words.iter().all(|w| message.contains(w)),
+            "{message:?} lacks {words:?}"
+        );
     };
     check(&|t| t.vertices[1][2] = f64::NAN, &["vertices", "NaN"]);
     check(&|t| t.tolerance = 0.0, &["tolerance is 0"]);
@@ -185,13 +210,28 @@ fn every_misuse_names_the_entry_and_the_value() {
         },
         &["not closed", "edge 1", "0 times"],
     );
-    check(&|t| t.faces[1].reversed = true, &["not closed", "edge 0", "2 times"]);
-    check(&|t| t.faces[0].surface = 7, &["face 0", "surface 7", "there are 3"]);
-    check(&|t| t.edges[2].end = 9, &["edge 2", "vertex 9", "there are 2"]);
+    check(
+        &|t| t.faces[1].reversed = true,
+        &["not closed", "edge 0", "2 times"],
+    );
+    check(
+        &|t| t.faces[0].surface = 7,
+        &["face 0", "surface 7", "there are 3"],
+    );
+    check(
+        &|t| t.edges[2].end = 9,
+        &["edge 2", "vertex 9", "there are 2"],
+    );
     check(&|t| t.edges[2].range = [0.0, 2.0], &["edge 2", "0 to 2"]);
     check(&|t| t.edges[2].range = [1.0, 0.0], &["edge 2", "1 to 0"]);
-    check(&|t| t.faces[0].loops[0].swap(0, 1), &["face 0", "loop 0 is not closed"]);
-    check(&|t| t.faces[0].loops.push(Vec::new()), &["face 0", "no loop may be empty"]);
+    check(
+        &|t| t.faces[0].loops[0].swap(0, 1),
+        &["face 0", "loop 0 is not closed"],
+    );
+    check(
+        &|t| t.faces[0].loops.push(Vec::new()),
+        &["face 0", "no loop may be empty"],
+    );
     check(
         &|t| t.faces[0].loops[0][0].pcurve = None,
         &["face 0", "edge 0", "no curve on the B-spline"],
@@ -296,7 +336,11 @@ fn a_spline_curve_on_a_surface_serves_as_well_as_a_line() {
 
 #[test]
 fn a_box_without_extent_is_refused() {
-    for max in [[1.0, 1.0, 0.0], [1.0, f64::NAN, 1.0], [f64::INFINITY, 1.0, 1.0]] {
+    for max in [
+        [1.0, 1.0, 0.0],
+        [1.0, f64::NAN, 1.0],
+        [f64::INFINITY, 1.0, 1.0],
+    ] {
         let error = box_solid([0.0; 3], max).unwrap_err();
         assert!(error.to_string().contains("increasing order"), "{error}");
     }
@@ -308,5 +352,8 @@ fn a_shell_that_cuts_itself_is_refused_by_the_kernels_checker() {
     let mut t = cylinder_topology([0.0, 1.0], [0.0, 0.0], 1.0);
     t.faces[0].loops[0][1].pcurve = bodies::flat([0.0, 0.0], [0.0, 1.0]);
     let message = refused(&t);
-    assert!(message.contains("not valid") || message.contains("volume"), "{message}");
+    assert!(
+        message.contains("not valid") || message.contains("volume"),
+        "{message}"
+    );
 }

@@ -4,6 +4,8 @@
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::panic,
+    clippy::too_many_lines,
+    clippy::unnecessary_wraps,
     reason = "tests"
 )]
 
@@ -228,7 +230,11 @@ impl Course {
         let cuts: Vec<f64> = (0..=self.segments)
             .map(|k| knots_u[3 + k * spans / self.segments])
             .collect();
-        let top_net = rim(0).iter().zip(rim(6)).flat_map(|(a, b)| [*a, b]).collect();
+        let top_net = rim(0)
+            .iter()
+            .zip(rim(6))
+            .flat_map(|(a, b)| [*a, b])
+            .collect();
         let mut t = Topology {
             tolerance: 1e-7,
             ..Topology::default()
@@ -313,7 +319,10 @@ impl Course {
             t.faces.push(Face {
                 surface: t.surfaces.len(),
                 reversed: false,
-                loops: vec![vec![run(2 * k, out < 0.0, None), run(2 * k + 1, out > 0.0, None)]],
+                loops: vec![vec![
+                    run(2 * k, out < 0.0, None),
+                    run(2 * k + 1, out > 0.0, None),
+                ]],
             });
             t.surfaces.push(Surface::Plane {
                 origin: a,
