@@ -3,6 +3,11 @@
 //! Debian's packages are the default; `OCCT_ROOT` names another installation (its `include/opencascade` and `lib`).
 //! Crates that depend on this one read `DEP_OCCT_BRIDGE_LIBDIR` (only set with `OCCT_ROOT`) to give their binaries a run path.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "a build script talks to cargo on standard output"
+)]
+
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -62,8 +67,8 @@ fn main() {
     println!("cargo:rerun-if-changed=shim");
     println!("cargo:rerun-if-changed=src/ffi.rs");
     if let Err(problem) = build() {
-        println!("cargo:warning={problem}");
-        eprintln!("{problem}");
+        // Cargo shows this line in full; what the build script prints otherwise is buried below it.
+        println!("cargo::error={problem}");
         std::process::exit(1);
     }
 }

@@ -12,6 +12,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_Surface.hxx>
 #include <IntTools_Context.hxx>
 #include <TopExp.hxx>
@@ -60,7 +61,9 @@ bool append_sample(const Handle(Geom_Surface)& surface, std::size_t face, double
   gp_Vec dv;
   surface->D1(u, v, p, du, dv);
   gp_Vec normal = du.Crossed(dv);
-  if (!(normal.Magnitude() > 1e-12 * du.Magnitude() * dv.Magnitude()) || normal.Magnitude() == 0.0) return false;
+  const double shorter = std::min(du.Magnitude(), dv.Magnitude());
+  const double longer = std::max(du.Magnitude(), dv.Magnitude());
+  if (!(shorter > 1e-7 * longer && normal.Magnitude() > 1e-9 * shorter * longer)) return false;
   normal.Normalize();
   out.push_back(FaceSampleData{face, {p.X(), p.Y(), p.Z()}, {normal.X(), normal.Y(), normal.Z()}});
   return true;
@@ -127,7 +130,15 @@ rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double e
   for_each_index(solids.faces.size(), parallel, [&](std::size_t i) {
     const TopoDS_Face face = TopoDS::Face(solids.faces[i].Oriented(TopAbs_FORWARD));
     const Integral area = face_area(face, eps);
-    const Integral flux = face_flux(face, at, eps);
+    const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(BRep_Tool::Surface(face));
+    Integral flux{0.0, 0.0};
+    if (plane.IsNull()) {
+      flux = face_flux(face, at, eps);
+    } else {
+      // A pyramid: no second integral.
+      const gp_Dir normal = plane->Position().XDirection().Crossed(plane->Position().YDirection());
+      flux.value = area.value * gp_Vec(at, plane->Location()).Dot(gp_Vec(normal)) / 3.0;
+    }
     results[i] = FaceIntegralData{area.value, flux.value, std::max(area.error, flux.error), largest_tolerance(face)};
   });
   rust::Vec<FaceIntegralData> out;
@@ -169,8 +180,23 @@ std::unique_ptr<ClassifierHandle> new_classifier(const ShapeHandle& shape) {
   return std::make_unique<ClassifierHandle>(shape.shape);
 }
 
+ClassifierHandle::ClassifierHandle(const TopoDS_Shape& solid) : classifier(solid), context(new IntTools_Context) {
+  for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next()) {
+    Bnd_Box box;
+    BRepBndLib::Add(it.Current(), box, Standard_False);
+    faces.emplace_back(TopoDS::Face(it.Current()), box);
+  }
+}
+
 std::uint8_t ClassifierHandle::classify(std::array<double, 3> point, double tolerance) {
-  classifier.Perform(gp_Pnt(point[0], point[1], point[2]), tolerance);
+  const gp_Pnt p(point[0], point[1], point[2]);
+  // The kernel's classifier says "in" of some points that are exactly on a face, so the faces are asked first.
+  for (const auto& face : faces) {
+    Bnd_Box box = face.second;
+    box.Enlarge(tolerance);
+    if (!box.IsOut(p) && context->IsValidPointForFace(p, face.first, tolerance)) return 2;
+  }
+  classifier.Perform(p, tolerance);
   switch (classifier.State()) {
     case TopAbs_IN: return 0;
     case TopAbs_OUT: return 1;

@@ -4,6 +4,8 @@
 #include "occt-bridge/shim/shape.hpp"
 
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <Bnd_Box.hxx>
+#include <IntTools_Context.hxx>
 #include <gp_Pnt.hxx>
 
 #include <array>
@@ -30,8 +32,10 @@ rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double e
 rust::Vec<FaceSampleData> sample_faces(const SolidsHandle& solids, std::size_t per_face, bool parallel);
 
 struct ClassifierHandle {
-  explicit ClassifierHandle(const TopoDS_Shape& solid) : classifier(solid) {}
+  explicit ClassifierHandle(const TopoDS_Shape& solid);
   BRepClass3d_SolidClassifier classifier;
+  std::vector<std::pair<TopoDS_Face, Bnd_Box>> faces;
+  Handle(IntTools_Context) context;
   // 0 in, 1 out, 2 on
   std::uint8_t classify(std::array<double, 3> point, double tolerance);
 };

@@ -16,15 +16,19 @@ namespace clinothem::occt {
 
 namespace {
 
-// The surface's normal, or the triangles' where the surface has none.
-gp_Vec normal_at(const Handle(Geom_Surface)& surface, const gp_Pnt2d& uv, const gp_Vec& otherwise) {
-  gp_Pnt p;
-  gp_Vec du;
-  gp_Vec dv;
-  surface->D1(uv.X(), uv.Y(), p, du, dv);
-  const gp_Vec normal = du.Crossed(dv);
-  if (normal.Magnitude() > 1e-9 * (du.Magnitude() * dv.Magnitude() + 1e-300)) return normal.Normalized();
-  return otherwise.Magnitude() > 0.0 ? otherwise.Normalized() : gp_Vec(0, 0, 1);
+// The surface's normal; beside the point, towards the middle of the face, where the surface is degenerate; else the triangles'.
+gp_Vec normal_at(const Handle(Geom_Surface)& surface, const gp_Pnt2d& uv, const gp_Pnt2d& middle, const gp_Vec& otherwise) {
+  for (const double step : {0.0, 1e-4}) {
+    gp_Pnt p;
+    gp_Vec du;
+    gp_Vec dv;
+    surface->D1(uv.X() + step * (middle.X() - uv.X()), uv.Y() + step * (middle.Y() - uv.Y()), p, du, dv);
+    const gp_Vec normal = du.Crossed(dv);
+    const double shorter = std::min(du.Magnitude(), dv.Magnitude());
+    const double longer = std::max(du.Magnitude(), dv.Magnitude());
+    if (shorter > 1e-7 * longer && normal.Magnitude() > 1e-9 * shorter * longer) return normal.Normalized();
+  }
+  return otherwise;
 }
 
 MeshData mesh_of(const TopoDS_Face& face) {
@@ -45,9 +49,12 @@ MeshData mesh_of(const TopoDS_Face& face) {
     if (reversed) std::swap(n[1], n[2]);
     for (int k : n) out.triangles.push_back(static_cast<std::uint32_t>(k - 1));
   }
+  gp_XY middle(0.0, 0.0);
+  if (mesh->HasUVNodes())
+    for (int i = 1; i <= mesh->NbNodes(); ++i) middle += mesh->UVNode(i).XY() / mesh->NbNodes();
   for (std::size_t i = 0; i < points.size(); ++i) {
     gp_Vec normal = sums[i].Magnitude() > 0.0 ? sums[i].Normalized() : gp_Vec(0, 0, 1);
-    if (mesh->HasUVNodes()) normal = normal_at(surface, mesh->UVNode(static_cast<int>(i) + 1), sums[i]);
+    if (mesh->HasUVNodes()) normal = normal_at(surface, mesh->UVNode(static_cast<int>(i) + 1), middle, normal);
     if (reversed) normal.Reverse();
     for (double value : {points[i].X(), points[i].Y(), points[i].Z()}) out.vertices.push_back(value);
     for (double value : {normal.X(), normal.Y(), normal.Z()}) out.normals.push_back(value);

@@ -4,7 +4,11 @@
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <IFSelect_ReturnStatus.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Protocol.hxx>
+#include <Interface_ShareTool.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -20,19 +24,23 @@
 #include <StepRepr_CharacterizedDefinition.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
+#include <StepRepr_RepresentationContext.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepRepr_RepresentedDefinition.hxx>
 #include <StepShape_ShapeDefinitionRepresentation.hxx>
+#include <StepShape_ShellBasedSurfaceModel.hxx>
+#include <StepVisual_MechanicalDesignGeometricPresentationRepresentation.hxx>
 #include <TCollection_ExtendedString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TransferBRep.hxx>
 #include <TransferBRep_ShapeMapper.hxx>
 #include <Transfer_FinderProcess.hxx>
-#include <UnitsMethods_LengthUnit.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -41,6 +49,8 @@
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -69,6 +79,7 @@ void prepare(bool ap242, bool shared_faces, const rust::String& product) {
   set("write.step.unit", "M");
   set("write.step.schema", ap242 ? 5 : 4);
   set("write.step.nonmanifold", shared_faces ? 1 : 0);
+  set("read.step.nonmanifold", 1);
   set("write.surfacecurve.mode", 1);
   set("write.step.product.name", std::string(product).c_str());
 }
@@ -78,7 +89,6 @@ class Document {
   Document() {
     application_ = XCAFApp_Application::GetApplication();
     application_->NewDocument("MDTV-XCAF", document_);
-    XCAFDoc_DocumentTool::SetLengthUnit(document_, 1.0, UnitsMethods_LengthUnit_Meter);
   }
   ~Document() {
     try {
@@ -121,6 +131,39 @@ void renumber_occurrences(const Handle(StepData_StepModel)& model) {
         Handle(StepRepr_NextAssemblyUsageOccurrence)::DownCast(model->Value(i));
     if (!use.IsNull()) use->SetId(new TCollection_HAsciiString(++next));
   }
+}
+
+// Colours are written product by product, in the order of a hash of addresses. This puts them in the order of the products.
+void order_styles(const Handle(XSControl_WorkSession)& session, const Handle(StepData_StepModel)& model) {
+  using Entity = Handle(Standard_Transient);
+  const Interface_ShareTool share(model, session->Protocol());
+  std::vector<bool> placed(static_cast<std::size_t>(model->NbEntities()) + 1, false);
+  const std::function<void(const Entity&, std::vector<Entity>*)> place = [&](const Entity& entity, std::vector<Entity>* out) {
+    const auto number = static_cast<std::size_t>(model->Number(entity));
+    if (number == 0 || placed[number]) return;
+    placed[number] = true;
+    if (out != nullptr) out->push_back(entity);
+    for (Interface_EntityIterator it = share.Shareds(entity); it.More(); it.Next()) place(it.Value(), out);
+  };
+  // What the products need keeps its order; what only colours need follows.
+  std::vector<std::pair<int, Entity>> styles;
+  for (Interface_EntityIterator it = share.RootEntities(); it.More(); it.Next()) {
+    const auto style = Handle(StepVisual_MechanicalDesignGeometricPresentationRepresentation)::DownCast(it.Value());
+    if (style.IsNull())
+      place(it.Value(), nullptr);
+    else
+      styles.emplace_back(model->Number(style->ContextOfItems()), it.Value());
+  }
+  if (styles.empty()) return;
+  std::vector<Entity> ordered;
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (placed[static_cast<std::size_t>(i)]) ordered.push_back(model->Value(i));
+  std::sort(styles.begin(), styles.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& style : styles) place(style.second, &ordered);
+  if (static_cast<int>(ordered.size()) != model->NbEntities()) throw Refused("ordering the entities of the file lost some");
+  model->ClearEntities();
+  for (const Entity& entity : ordered) model->AddEntity(entity);
+  session->ComputeGraph(Standard_True);
 }
 
 // The PRODUCT that was written for a shape.
@@ -204,26 +247,38 @@ void write_assembly(rust::Str path, const StepHeader& header, const rust::Vec<St
     product->SetDescription(shared(nodes[i].description));
   }
   const Handle(StepData_StepModel) model = writer.ChangeWriter().Model();
+  order_styles(session, model);
   renumber_occurrences(model);
   write_header(model, header);
   write_file(writer.ChangeWriter(), std::string(path));
 }
 
 void write_shared(rust::Str path, const StepHeader& header, const ShapeHandle& shape, const rust::Vec<rust::String>& names) {
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(shape.shape, TopAbs_SOLID, solids);
+  if (solids.IsEmpty()) throw BadInput("the shape has no solid");
+  if (!names.empty() && names.size() != static_cast<std::size_t>(solids.Extent()))
+    throw BadInput("there are " + std::to_string(names.size()) + " names for " + std::to_string(solids.Extent()) + " solids");
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    int shells = 0;
+    for (TopoDS_Iterator it(solids(i)); it.More(); it.Next()) ++shells;
+    if (shells != 1)
+      throw BadInput("solid " + std::to_string(i - 1) + " has " + std::to_string(shells) +
+                     " shells: this flavour cannot tell a void from a body, BREP can");
+  }
   prepare(header.ap242, true, header.name);
   STEPControl_Writer writer;
   if (writer.Transfer(shape.shape, STEPControl_AsIs) != IFSelect_RetDone) throw Refused("the shape could not be translated to STEP");
   const Handle(StepData_StepModel) model = writer.Model();
-  const Handle(Transfer_FinderProcess) process = writer.WS()->TransferWriter()->FinderProcess();
-  TopTools_IndexedMapOfShape solids;
-  TopExp::MapShapes(shape.shape, TopAbs_SOLID, solids);
-  for (int i = 1; i <= solids.Extent() && i <= static_cast<int>(names.size()); ++i) {
-    Handle(StepRepr_RepresentationItem) item;
-    const Handle(TransferBRep_ShapeMapper) mapper = TransferBRep::ShapeMapper(process, solids(i));
-    if (process->FindTypedTransient(mapper, STANDARD_TYPE(StepRepr_RepresentationItem), item))
-      item->SetName(shared(names[static_cast<std::size_t>(i - 1)]));
+  // The kernel writes each solid as its closed shell.
+  std::vector<Handle(StepShape_ShellBasedSurfaceModel)> items;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto item = Handle(StepShape_ShellBasedSurfaceModel)::DownCast(model->Value(i));
+    if (!item.IsNull()) items.push_back(item);
   }
-  renumber_occurrences(model);
+  if (items.size() != static_cast<std::size_t>(solids.Extent()))
+    throw Refused(std::to_string(solids.Extent()) + " solids became " + std::to_string(items.size()) + " closed shells");
+  for (std::size_t i = 0; i < names.size(); ++i) items[i]->SetName(shared(names[i]));
   write_header(model, header);
   write_file(writer, std::string(path));
 }
@@ -238,6 +293,26 @@ std::string label_name(const TDF_Label& label) {
   Standard_PCharacter target = buffer.data();
   text.ToUTF8CString(target);
   return std::string(buffer.data());
+}
+
+// The shared flavour holds closed shells: each is the boundary of a solid.
+TopoDS_Shape with_solids(const TopoDS_Shape& shape) {
+  if (TopExp_Explorer(shape, TopAbs_SOLID).More()) return shape;
+  std::vector<TopoDS_Shape> solids;
+  BRep_Builder builder;
+  for (TopExp_Explorer it(shape, TopAbs_SHELL); it.More(); it.Next()) {
+    if (!BRep_Tool::IsClosed(it.Current())) return shape;
+    TopoDS_Solid solid;
+    builder.MakeSolid(solid);
+    builder.Add(solid, it.Current());
+    solids.push_back(solid);
+  }
+  if (solids.empty()) return shape;
+  if (solids.size() == 1) return solids[0];
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& solid : solids) builder.Add(compound, solid);
+  return compound;
 }
 
 class PartCollector {
@@ -270,14 +345,24 @@ class PartCollector {
       part.has_color = true;
       for (std::size_t i = 0; i < 3; ++i) part.color[i] = static_cast<std::uint8_t>(std::lround(255.0 * rgb[i]));
     }
-    Handle(TColStd_HSequenceOfExtendedString) layers = document_.layers()->GetLayers(referred);
-    if ((layers.IsNull() || layers->IsEmpty()) && !occurrence.IsNull()) layers = document_.layers()->GetLayers(occurrence);
-    if (!layers.IsNull() && !layers->IsEmpty()) part.layer = TCollection_AsciiString(layers->Value(1)).ToCString();
-    parts_.shapes.push_back(XCAFDoc_ShapeTool::GetShape(referred).Located(here));
+    part.layer = find_layer(referred, occurrence);
+    parts_.shapes.push_back(with_solids(XCAFDoc_ShapeTool::GetShape(referred)).Located(here));
     tables_.push_back(part);
   }
 
  private:
+  std::string find_layer(const TDF_Label& label, const TDF_Label& occurrence) const {
+    TDF_LabelSequence candidates;
+    XCAFDoc_ShapeTool::GetSubShapes(label, candidates);  // several solids of one product carry their layer themselves
+    if (!occurrence.IsNull()) candidates.Prepend(occurrence);
+    candidates.Prepend(label);
+    for (TDF_LabelSequence::Iterator it(candidates); it.More(); it.Next()) {
+      const Handle(TColStd_HSequenceOfExtendedString) layers = document_.layers()->GetLayers(it.Value());
+      if (!layers.IsNull() && !layers->IsEmpty()) return TCollection_AsciiString(layers->Value(1)).ToCString();
+    }
+    return {};
+  }
+
   bool find_color(const TDF_Label& label, const TDF_Label& occurrence, Quantity_Color& color) const {
     const Handle(XCAFDoc_ColorTool) tool = document_.colors();
     for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen}) {

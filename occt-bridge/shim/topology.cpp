@@ -337,7 +337,7 @@ std::unique_ptr<ShapeHandle> build_solid(const TopologyData& data) {
   const Maker maker(data);
   const gp_Pnt reference = point3(data.vertices, 0);
   double volume = 0.0;
-  for (const TopoDS_Face& face : maker.faces()) volume += face_flux(face, reference, 1e-9).value;
+  for (const TopoDS_Face& face : maker.faces()) volume += face_flux(face, reference, 1e-4).value;  // its sign is wanted
   if (!(std::abs(volume) > 0.0)) throw BadInput("the faces enclose no volume");
 
   BRep_Builder builder;

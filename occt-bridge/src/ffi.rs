@@ -92,6 +92,7 @@ pub(crate) mod bridge {
         unoriented_faces: usize,
     }
 
+    #[derive(Default)]
     struct MergeData {
         shells_of_solids: Vec<u32>,
         faces_of_shells: Vec<u32>,

@@ -18,6 +18,7 @@ pub(crate) struct Merger<'a> {
     edges: &'a [Vec<Side>],
 }
 
+#[derive(Default)]
 pub(crate) struct Merged {
     /// Their faces by index into `faces`.
     pub(crate) solids: Vec<Solid>,
@@ -183,39 +184,29 @@ impl<'a> Merger<'a> {
         uses: &[Use],
         opposite: &[Option<usize>],
         shells: &[usize],
-        bodies: &mut Sets,
+        sets: &mut Sets,
     ) -> Option<Merged> {
         // Kept uses by body and shell, both in order of first appearance.
-        let mut grouped: Vec<(usize, Vec<(usize, Vec<usize>)>)> = Vec::new();
+        let mut bodies: Vec<Body> = Vec::new();
+        let mut at_of: Vec<Option<usize>> = vec![None; owner.len()];
         for (u, of) in uses.iter().enumerate() {
-            let body = bodies.find(of.cell);
-            let at = grouped.iter().position(|g| g.0 == body).unwrap_or_else(|| {
-                grouped.push((body, Vec::new()));
-                grouped.len() - 1
+            let cell = sets.find(of.cell);
+            let at = *at_of[cell].get_or_insert_with(|| {
+                bodies.push(Body {
+                    cell,
+                    shells: Vec::new(),
+                });
+                bodies.len() - 1
             });
-            if opposite[u].is_some() {
-                continue;
-            }
-            let of_body = &mut grouped[at].1;
-            match of_body.iter_mut().find(|s| s.0 == shells[u]) {
-                Some(shell) => shell.1.push(u),
-                None => of_body.push((shells[u], vec![u])),
+            if opposite[u].is_none() {
+                bodies[at].add(shells[u], u);
             }
         }
+        let mut merged = Merged::default();
         let mut number = vec![None; uses.iter().map(|u| u.face + 1).max().unwrap_or(0)];
-        let mut merged = Merged {
-            solids: Vec::new(),
-            faces: Vec::new(),
-            data: bridge::MergeData {
-                shells_of_solids: Vec::new(),
-                faces_of_shells: Vec::new(),
-                uses: Vec::new(),
-                faces: Vec::new(),
-            },
-        };
-        for (body, of_body) in &grouped {
+        for body in &bodies {
             let mut faces = Vec::new();
-            for (_, shell) in of_body {
+            for (_, shell) in &body.shells {
                 for u in shell {
                     let of = uses[*u];
                     let at = *number[of.face].get_or_insert_with(|| {
@@ -223,32 +214,43 @@ impl<'a> Merger<'a> {
                         merged.faces.len() - 1
                     });
                     faces.push((at, of.reversed));
-                    merged
-                        .data
-                        .uses
-                        .push(u32::try_from(2 * of.face + usize::from(of.reversed)).ok()?);
+                    let code = 2 * of.face + usize::from(of.reversed);
+                    merged.data.uses.push(u32::try_from(code).ok()?);
                 }
-                merged
-                    .data
-                    .faces_of_shells
-                    .push(u32::try_from(shell.len()).ok()?);
+                let count = u32::try_from(shell.len()).ok()?;
+                merged.data.faces_of_shells.push(count);
             }
             if faces.is_empty() {
                 return None;
             }
-            merged
-                .data
-                .shells_of_solids
-                .push(u32::try_from(of_body.len()).ok()?);
+            let count = u32::try_from(body.shells.len()).ok()?;
+            merged.data.shells_of_solids.push(count);
             merged.solids.push(Solid {
-                owner: owner[*body]?,
+                owner: owner[body.cell]?,
                 faces,
-                shells: of_body.len(),
+                shells: body.shells.len(),
             });
         }
         for face in &merged.faces {
             merged.data.faces.push(u32::try_from(*face).ok()?);
         }
         Some(merged)
+    }
+}
+
+/// Cells that are joined.
+struct Body {
+    /// The first of them.
+    cell: usize,
+    /// Per shell, its number and its uses.
+    shells: Vec<(usize, Vec<usize>)>,
+}
+
+impl Body {
+    fn add(&mut self, shell: usize, of: usize) {
+        match self.shells.iter_mut().find(|s| s.0 == shell) {
+            Some(found) => found.1.push(of),
+            None => self.shells.push((shell, vec![of])),
+        }
     }
 }

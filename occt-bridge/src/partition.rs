@@ -210,7 +210,7 @@ impl Partition {
         }
         let handle = bridge::build_solids(&self.handle, &merged.data)
             .map_err(|e| from_kernel(operation, &e))?;
-        Solids::new(handle, merged.solids, faces)
+        Ok(Solids::new(handle, merged.solids, faces))
     }
 }
 

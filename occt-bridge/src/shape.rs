@@ -4,8 +4,11 @@ use std::fmt;
 
 use cxx::UniquePtr;
 
+use crate::bytes::{Reader, Writer};
 use crate::error::{BridgeError, from_kernel, input};
 use crate::ffi::bridge;
+
+const MAGIC: [u8; 8] = *b"CLNSHP01";
 
 /// A shape. Clones share the same geometry; nothing in this crate changes a shape after it was made.
 pub struct Shape {
@@ -59,18 +62,25 @@ impl Shape {
 
     /// The shape as bytes, exactly, for another process of the same build.
     pub fn to_bytes(&self) -> Result<Vec<u8>, BridgeError> {
-        bridge::shape_to_bytes(&self.handle)
-            .map_err(|e| from_kernel("writing a shape to bytes", &e))
+        let block = bridge::shape_to_bytes(&self.handle)
+            .map_err(|e| from_kernel("writing a shape to bytes", &e))?;
+        let mut out = Writer::new(MAGIC);
+        out.block(&block);
+        Ok(out.finish())
     }
 
     /// Reads what [`Self::to_bytes`] wrote.
     ///
     /// # Errors
-    /// [`BridgeError::Input`] or [`BridgeError::Kernel`] if the bytes are something else.
+    /// [`BridgeError::Input`] if the bytes are something else.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, BridgeError> {
-        bridge::shape_from_bytes(bytes)
+        let operation = "reading a shape from bytes";
+        let block = Reader::new(bytes, MAGIC)
+            .and_then(|mut from| from.block())
+            .map_err(|message| input(operation, message))?;
+        bridge::shape_from_bytes(block)
             .map(Self::new)
-            .map_err(|e| from_kernel("reading a shape from bytes", &e))
+            .map_err(|e| from_kernel(operation, &e))
     }
 
     /// The number of different sub-shapes of a kind: a face that two solids share counts once.

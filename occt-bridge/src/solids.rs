@@ -11,7 +11,7 @@ use crate::shape::Shape;
 /// Solids and the faces they share.
 pub struct Solids {
     pub(crate) handle: UniquePtr<bridge::SolidsHandle>,
-    solids: Vec<Solid>,
+    bodies: Vec<Solid>,
     faces: Vec<SolidFace>,
 }
 
@@ -35,19 +35,19 @@ pub struct SolidFace {
     pub solids: Vec<usize>,
 }
 
-const MAGIC: &[u8; 8] = b"CLNSOL01";
+const MAGIC: [u8; 8] = *b"CLNSOL01";
 
 impl Solids {
     pub(crate) fn new(
         handle: UniquePtr<bridge::SolidsHandle>,
         solids: Vec<Solid>,
         faces: Vec<SolidFace>,
-    ) -> Result<Self, BridgeError> {
-        Ok(Self {
+    ) -> Self {
+        Self {
             handle,
-            solids,
+            bodies: solids,
             faces,
-        })
+        }
     }
 
     /// Solids as they are: nothing is intersected, and faces are shared only where they already were. Solid i has owner i, and
@@ -62,7 +62,7 @@ impl Solids {
 
     /// The solids.
     pub fn solids(&self) -> &[Solid] {
-        &self.solids
+        &self.bodies
     }
 
     /// The faces of all solids, each once.
@@ -101,8 +101,8 @@ impl Solids {
         let shape = bridge::solids_to_bytes(&self.handle)
             .map_err(|e| from_kernel("writing solids to bytes", &e))?;
         let mut out = Writer::new(MAGIC);
-        out.number(self.solids.len());
-        for solid in &self.solids {
+        out.number(self.bodies.len());
+        for solid in &self.bodies {
             out.number(solid.owner);
             out.number(solid.shells);
             out.number(solid.faces.len());
@@ -135,7 +135,7 @@ impl Solids {
         let (solids, faces, block) =
             read_tables(bytes).map_err(|message| input(operation, message))?;
         let handle = bridge::solids_from_bytes(block).map_err(|e| from_kernel(operation, &e))?;
-        Self::new(handle, solids, faces)
+        Ok(Self::new(handle, solids, faces))
     }
 }
 
@@ -195,7 +195,7 @@ fn read_tables(bytes: &[u8]) -> Result<Tables<'_>, String> {
 impl std::fmt::Debug for Solids {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Solids")
-            .field("solids", &self.solids)
+            .field("solids", &self.bodies)
             .field("faces", &self.faces)
             .finish_non_exhaustive()
     }

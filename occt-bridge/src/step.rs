@@ -97,10 +97,12 @@ pub fn write_step_assembly(path: &Path, document: &StepDocument) -> Result<(), B
 
 /// Writes the shared flavour: one shape whose common faces are there once. `names` are those of its solids, in order.
 ///
-/// The tree of `document` is not used. An existing file is replaced.
+/// The tree of `document` is not used. An existing file is replaced. The file holds one named closed shell per solid, which readers turn
+/// into solids again.
 ///
 /// # Errors
-/// As [`write_step_assembly`].
+/// As [`write_step_assembly`]; also [`BridgeError::Input`] if a solid has a void, which this flavour cannot tell, or the number of names is
+/// neither that of the solids nor zero.
 pub fn write_step_shared(
     path: &Path,
     shape: &Shape,
