@@ -12,6 +12,7 @@
 mod banded;
 mod basis;
 mod bezier;
+mod bounds;
 mod closest;
 mod curve;
 mod derive;
@@ -19,6 +20,7 @@ mod elevate;
 pub mod enclosure;
 pub mod interpolate;
 mod knots;
+mod length;
 mod refine;
 mod reverse;
 mod ruled;
