@@ -10,9 +10,10 @@ pub(super) fn values(knots: &[f64], degree: usize, span: usize, u: f64, out: &mu
         for r in 0..j {
             let right = knots[span + r + 1] - u;
             let left = u - knots[span + 1 + r - j];
-            let share = out[r] / (right + left);
-            out[r] = saved + right * share;
-            saved = left * share;
+            // As a fraction, so that a clamped end has its one function at one to the last bit.
+            let share = out[r] * (left / (right + left));
+            out[r] = saved + (out[r] - share);
+            saved = share;
         }
         out[j] = saved;
     }

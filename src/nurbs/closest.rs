@@ -180,6 +180,10 @@ impl Search {
                 stack.extend([low, high]);
             }
         }
+        // What is good enough for the bound can still be made as good as rounding allows.
+        if let Some(best) = self.best.as_mut().filter(|best| best.patch == k) {
+            (best.s, best.t, best.distance) = sharpen(root, best.s, best.t);
+        }
     }
 
     /// Takes the place, sharpened by Newton's method, if it is the best so far.
@@ -248,7 +252,12 @@ fn sharpen(patch: &Patch, mut s: f64, mut t: f64) -> (f64, f64, f64) {
         let hold_u = blocked(s, gradient.0) || jet.du == DVec3::ZERO;
         let hold_v = blocked(t, gradient.1) || jet.dv == DVec3::ZERO;
         let determinant = |h: (f64, f64, f64)| h.0 * h.2 - h.1 * h.1;
-        if hessian.0 <= 0.0 || hessian.2 <= 0.0 || determinant(hessian) <= 0.0 {
+        // Of a direction that is held only the other one's curvature counts.
+        let uphill = match (hold_u, hold_v) {
+            (false, false) => hessian.0 <= 0.0 || determinant(hessian) <= 0.0,
+            _ => (!hold_u && hessian.0 <= 0.0) || (!hold_v && hessian.2 <= 0.0),
+        };
+        if uphill {
             hessian = (
                 jet.du.length_squared(),
                 jet.du.dot(jet.dv),
@@ -275,7 +284,7 @@ fn sharpen(patch: &Patch, mut s: f64, mut t: f64) -> (f64, f64, f64) {
             let length = patch.jet(next.0, next.1).point.length();
             // Next to the foot point the distance is flat to rounding, but the parameters still improve.
             let last_steps = step.0.abs().max(step.1.abs()) < 1e-5;
-            if length < distance || (last_steps && length <= distance * (1.0 + 1e-15)) {
+            if length < distance || (last_steps && length <= distance * (1.0 + 1e-14)) {
                 moved = Some((next, length));
                 break;
             }
