@@ -404,5 +404,9 @@ proptest! {
         let (u, v) = (fraction(a.knots(), part), fraction(b.knots(), part));
         prop_assert!(ruled.point(0.0, u).distance(a.point(u)) < 1e-11 * SIZE);
         prop_assert!(ruled.point(1.0, u).distance(b.point(v)) < 1e-11 * SIZE);
+        let (from, to) = (ruled.point(0.0, u), ruled.point(1.0, u));
+        let (across, whole) = (ruled.point(0.4, u) - from, to - from);
+        prop_assert!(across.cross(whole).length() < 1e-11 * SIZE * SIZE);
+        prop_assert!(across.dot(whole) >= 0.0 && across.length() <= whole.length());
     }
 }

@@ -1,4 +1,4 @@
-//! Curves and surfaces against closed forms: circle, parabola, sphere, and the net of [J19] Fig. 3.
+//! Curves and surfaces against closed forms: circle, parabola, sphere, and the net of J19 Fig. 3.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use clinothem::nurbs::interpolate::{self, Parametrization};
@@ -413,7 +413,7 @@ fn interpolation_of_a_cubic_with_its_own_parameters_gives_the_cubic_back() {
 
 #[test]
 fn the_parameters_and_averaged_knots_are_those_of_the_nurbs_book() {
-    // [PT97] Ex. 9.1: points (0,0) (3,4) (-1,4) (-4,0) (-4,-3); chords 5, 4, 5, 3; knot 28/51.
+    // PT97 Ex. 9.1: points (0,0) (3,4) (-1,4) (-4,0) (-4,-3); chords 5, 4, 5, 3; knot 28/51.
     let points = [(0, 0), (3, 4), (-1, 4), (-4, 0), (-4, -3)]
         .map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0));
     let params = interpolate::parameters(&points, Parametrization::ChordLength).unwrap();

@@ -28,7 +28,7 @@ pub(super) fn binomial(n: usize, k: usize) -> f64 {
     (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
 
-/// Derivatives of A(u)/w(u) from those of the homogeneous (A, w) ([PT97] Eq. 4.8, A4.2).
+/// Derivatives of A(u)/w(u) from those of the homogeneous (A, w) (PT97 Eq. 4.8, A4.2).
 pub(super) fn curve_quotient(homogeneous: &[DVec4]) -> Vec<DVec3> {
     let mut result: Vec<DVec3> = Vec::with_capacity(homogeneous.len());
     for (k, derivative) in homogeneous.iter().enumerate() {
@@ -41,7 +41,7 @@ pub(super) fn curve_quotient(homogeneous: &[DVec4]) -> Vec<DVec3> {
     result
 }
 
-/// Derivatives of A(u, v)/w(u, v) from those of the homogeneous (A, w) ([PT97] Eq. 4.20, A4.4); row k holds the
+/// Derivatives of A(u, v)/w(u, v) from those of the homogeneous (A, w) (PT97 Eq. 4.20, A4.4); row k holds the
 /// derivatives k times in u and 0, 1, … times in v.
 pub(super) fn surface_quotient(homogeneous: &[Vec<DVec4>]) -> Vec<Vec<DVec3>> {
     let weight = homogeneous[0][0].w;

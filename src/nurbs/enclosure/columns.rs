@@ -126,20 +126,10 @@ impl Part {
                 dv: dv * in_v,
             }
         };
-        if let Some(mut crossing) = projection.locate(p.xy(), guess, shell.tolerance, jet) {
-            let above = crossing.height - p.z;
-            if above.abs() <= shell.width {
-                tally.touch();
-                return false;
-            }
-            if above > 0.0 && crossing.on_side {
-                crossing.place(&self.region);
-                tally.seam(piece, &crossing);
-            } else if above > 0.0 {
-                tally.cross();
-            }
+        if let Some(crossing) = projection.locate(p.xy(), guess, shell.tolerance, jet) {
+            tally.add(piece, &self.region, crossing, p.z, shell.width);
         }
-        true
+        !tally.on_shell()
     }
 }
 
