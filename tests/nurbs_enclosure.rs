@@ -6,9 +6,10 @@
 )]
 
 use clinothem::nurbs::enclosure::{Enclosure, EnclosureError, Side};
-use clinothem::nurbs::interpolate::{self, Parametrization};
+use clinothem::nurbs::interpolate;
 use clinothem::nurbs::{Curve, KnotVector, Surface};
 use glam::{DMat3, DVec2, DVec3};
+use proptest::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// A fixed sequence of points in a box, spread evenly (the R3 sequence of the plastic number's cousin).
@@ -210,7 +211,11 @@ fn channel(overhang: f64, stations: usize) -> Vec<Surface> {
         .collect();
     let (v, rows) = interpolate::with_parameters(&rows, &along, 3).unwrap();
     let u = KnotVector::uniform(3, section.len()).unwrap();
-    let base = Surface::new(u, v, rows.concat()).unwrap();
+    closed(Surface::new(u, v, rows.concat()).unwrap())
+}
+
+/// A base with its ruled top and two end caps.
+fn closed(base: Surface) -> Vec<Surface> {
     let top = Surface::ruled(&base.isocurve_u(0.0), &base.isocurve_u(1.0)).unwrap();
     let caps = [0.0, 1.0].map(|s| Surface::ruled(&base.isocurve_v(s), &top.isocurve_v(s)).unwrap());
     let [first, last] = caps;
@@ -242,20 +247,25 @@ fn triangulated(surface: &Surface, nu: usize, nv: usize, flip: bool) -> Vec<[DVe
     triangles
 }
 
+/// The closed channel as triangles that all face one way: base and top share u, caps run with v.
+fn meshed(surfaces: &[Surface]) -> Vec<[DVec3; 3]> {
+    let fine = [
+        (40, 400, false),
+        (1, 400, true),
+        (1, 40, false),
+        (1, 40, true),
+    ];
+    let faces = surfaces.iter().zip(fine);
+    faces
+        .flat_map(|(surface, (nu, nv, flip))| triangulated(surface, nu, nv, flip))
+        .collect()
+}
+
 #[test]
 fn channels_with_and_without_overhanging_banks_agree_with_the_winding_number_of_a_fine_mesh() {
     for overhang in [0.0, 1.0] {
         let surfaces = channel(overhang, 41);
-        let mut triangles = Vec::new();
-        // The sense of each face is read off the construction: base and top share u, caps run with v.
-        for (surface, (nu, nv, flip)) in surfaces.iter().zip([
-            (40, 400, false),
-            (1, 400, true),
-            (1, 40, false),
-            (1, 40, true),
-        ]) {
-            triangles.extend(triangulated(surface, nu, nv, flip));
-        }
+        let triangles = meshed(&surfaces);
         let shell = Enclosure::new(surfaces).unwrap();
         let (low, high) = shell.bounds();
         let mut held = 0;
@@ -307,49 +317,173 @@ fn the_distance_to_a_sphere_is_that_to_its_centre_less_the_radius() {
 }
 
 #[test]
-#[ignore = "measures time; run with --release --nocapture"]
-#[allow(clippy::print_stdout, reason = "a measurement")]
-fn speed() {
-    for (name, surfaces) in [
-        ("channel", channel(0.0, 201)),
-        ("overhanging channel", channel(1.0, 201)),
-        ("sphere", vec![sphere(|p| 10.0 * p)]),
-        ("box", box_shell(DVec3::ONE, |p| p)),
-    ] {
-        let start = std::time::Instant::now();
-        let shell = Enclosure::new(surfaces).unwrap();
-        let built = start.elapsed();
-        let (low, high) = shell.bounds();
-        let points: Vec<_> = scattered(1_000_000, low, high).collect();
-        let start = std::time::Instant::now();
-        let held = points.iter().filter(|p| shell.contains(**p)).count();
-        let asked = start.elapsed();
-        println!(
-            "{name}: built in {built:?}, {:?} a point, {held} inside",
-            asked / 1_000_000
+fn a_straight_channel_of_parabolic_section_holds_what_lies_between_parabola_and_top() {
+    let (width, depth, length, azimuth) = (50.0, 4.4, 400.0, 0.7_f64);
+    let along = DVec3::new(azimuth.sin(), azimuth.cos(), 0.0);
+    let across = DVec3::new(azimuth.cos(), -azimuth.sin(), 0.0);
+    let section = [(-0.5, 0.0), (0.0, -2.0), (0.5, 0.0)];
+    let net = section.iter().flat_map(|&(y, z)| {
+        [0.0, 1.0].map(|s| width * y * across + depth * z * DVec3::Z + length * s * along)
+    });
+    let line = || KnotVector::uniform(1, 2).unwrap();
+    let base = Surface::new(KnotVector::uniform(2, 3).unwrap(), line(), net.collect()).unwrap();
+    let shell = Enclosure::new(closed(base)).unwrap();
+    let (low, high) = shell.bounds();
+    for p in scattered(20_000, low, high) {
+        let (s, y) = (p.dot(along), p.dot(across));
+        let inside =
+            s > 0.0 && s < length && p.z < 0.0 && p.z > -depth * (1.0 - (2.0 * y / width).powi(2));
+        assert_eq!(shell.contains(p), inside, "{p}");
+    }
+    // Straight below a rim, on a rim, on the top and next to it.
+    for k in 1..40 {
+        let s = 10.0 * f64::from(k) * along;
+        let rim = s + 0.5 * width * across;
+        assert!(!shell.contains(rim - 0.01 * DVec3::Z));
+        assert!(!shell.contains(rim + 0.01 * across - 0.001 * DVec3::Z));
+        assert!(shell.contains(rim - 0.01 * across - 1e-4 * DVec3::Z));
+        assert!(shell.contains(s) && shell.contains(s - 1e-9 * DVec3::Z));
+        assert!(!shell.contains(s + 1e-9 * DVec3::Z));
+        assert!(
+            shell.contains(s - (depth - 1e-9) * DVec3::Z)
+                && !shell.contains(s - (depth + 1e-9) * DVec3::Z)
         );
     }
-    let curve: Curve = interpolate::curve(
-        &(0..50)
-            .map(|k| DVec3::new(f64::from(k), f64::from(k % 7), 0.0))
-            .collect::<Vec<_>>(),
-        3,
-        Parametrization::ChordLength,
-    )
-    .unwrap();
-    let surface = channel(0.0, 201).remove(0);
-    let start = std::time::Instant::now();
-    let mut sum = DVec3::ZERO;
-    for k in 0..1_000_000 {
-        sum += curve.point(f64::from(k) * 1e-6);
+}
+
+#[test]
+fn a_tunnel_of_elliptic_section_holds_what_is_within_its_ellipse() {
+    // Rational, overhanging over its whole length, closed on itself, with a cap at each end.
+    let (a, b, length) = (12.0, 5.0, 80.0);
+    let turn = DMat3::from_euler(glam::EulerRot::ZYX, 0.6, 0.05, 0.0);
+    let place = |s: f64, x: f64, z: f64| turn * DVec3::new(length * s, a * x, b * z);
+    let (mut net, mut weights) = (Vec::new(), Vec::new());
+    for (k, &(x, z)) in CORNERS.iter().enumerate() {
+        net.extend([place(0.0, x, z), place(1.0, x, z)]);
+        weights.extend([if k % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 }; 2]);
     }
-    println!("curve points: {:?} each", start.elapsed() / 1_000_000);
-    let start = std::time::Instant::now();
-    for k in 0..1_000_000 {
-        sum += surface.point(f64::from(k % 1000) * 1e-3, f64::from(k) * 1e-6);
+    let u = KnotVector::new(2, QUARTERS.to_vec()).unwrap();
+    let wall = Surface::rational(u, KnotVector::uniform(1, 2).unwrap(), net, weights).unwrap();
+    let caps = [0.0, 1.0].map(|s| {
+        let centre = Curve::new(
+            KnotVector::uniform(1, 2).unwrap(),
+            vec![place(s, 0.0, 0.0); 2],
+        )
+        .unwrap();
+        Surface::ruled(&wall.isocurve_v(s), &centre).unwrap()
+    });
+    let [first, last] = caps;
+    let shell = Enclosure::new(vec![wall, first, last]).unwrap();
+    let (low, high) = shell.bounds();
+    for p in scattered(20_000, low, high) {
+        let own = turn.transpose() * p;
+        let inside =
+            own.x > 0.0 && own.x < length && (own.y / a).powi(2) + (own.z / b).powi(2) < 1.0;
+        assert_eq!(shell.contains(p), inside, "{own}");
     }
-    println!(
-        "surface points: {:?} each ({sum})",
-        start.elapsed() / 1_000_000
+    // On the axis, in the planes of the caps' spokes, just inside and outside of each end.
+    for s in [-1e-6, 1e-6, 0.5, 1.0 - 1e-6, 1.0 + 1e-6] {
+        assert_eq!(
+            shell.contains(place(s, 0.0, 0.0)),
+            s > 0.0 && s < 1.0,
+            "{s}"
+        );
+    }
+}
+
+#[test]
+fn points_around_the_rims_of_a_winding_channel_agree_with_a_mesh() {
+    let surfaces = channel(0.0, 41);
+    let triangles = meshed(&surfaces);
+    let shell = Enclosure::new(surfaces.clone()).unwrap();
+    for (k, offset) in scattered(400, DVec3::splat(-3.0), DVec3::splat(3.0)).enumerate() {
+        // Around the rims, and straight below and above them.
+        let rim = surfaces[0].point(f64::from(u8::from(k % 2 == 0)), k as f64 / 400.0);
+        for p in [rim + offset, rim + DVec3::Z * offset] {
+            if shell.distance(p, 0.1).is_none() {
+                assert_eq!(shell.contains(p), winding(&triangles, p).abs() > 0.5, "{p}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_answer_does_not_depend_on_orientation_order_or_parameters() {
+    let surfaces = channel(1.0, 21);
+    let other = vec![
+        surfaces[3].elevate_u(1).unwrap(),
+        surfaces[0]
+            .reversed_u()
+            .transposed()
+            .insert_knot_u(0.37, 2)
+            .unwrap(),
+        surfaces[2].reversed_v(),
+        surfaces[1].transposed(),
+    ];
+    let (a, b) = (
+        Enclosure::new(surfaces).unwrap(),
+        Enclosure::new(other).unwrap(),
     );
+    let (low, high) = a.bounds();
+    for p in scattered(20_000, low, high) {
+        assert_eq!(a.contains(p), b.contains(p), "{p}");
+    }
+}
+
+#[test]
+fn the_same_model_in_millimetres_and_in_kilometres_gives_the_same_answers() {
+    let sized = |scale: f64| {
+        let scaled = |surface: &Surface| {
+            let net = surface.net().iter().map(|&p| p * scale).collect();
+            Surface::new(surface.knots_u().clone(), surface.knots_v().clone(), net).unwrap()
+        };
+        Enclosure::new(channel(1.0, 21).iter().map(scaled).collect()).unwrap()
+    };
+    let [metres, millimetres, kilometres] = [1.0, 1e3, 1e-3].map(sized);
+    let (low, high) = metres.bounds();
+    for p in scattered(5_000, low, high) {
+        let answer = metres.contains(p);
+        assert_eq!(millimetres.contains(1e3 * p), answer, "{p}");
+        assert_eq!(kilometres.contains(1e-3 * p), answer, "{p}");
+    }
+}
+
+#[test]
+fn points_far_away_infinite_or_not_numbers_are_outside() {
+    let shell = Enclosure::new(vec![sphere(|p| p)]).unwrap();
+    for x in [1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+        assert!(!shell.contains(DVec3::new(x, 0.0, 0.0)));
+        assert!(!shell.contains(DVec3::new(0.0, 0.0, x)));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn dented_and_twisted_spheres_agree_with_the_winding_number_of_a_fine_mesh(
+        pulls in prop::collection::vec((0.6..1.4, -0.25..0.25, -0.25..0.25), 24),
+        tilt in -3.0..3.0,
+    ) {
+        // Move all but the poles, and the seam's two copies alike: 8 columns of 3.
+        let ball = sphere(|p| p);
+        let turn = DMat3::from_euler(glam::EulerRot::XYZ, tilt, 0.5 * tilt, 0.3);
+        let net = ball.net().iter().enumerate().map(|(k, &p)| {
+            let (i, j) = ((k / 5) % 8, k % 5);
+            let (grow, aside, up) = if (1..4).contains(&j) { pulls[3 * i + j - 1] } else { (1.0, 0.0, 0.0) };
+            turn * (p * grow + DVec3::new(aside, -aside, up))
+        });
+        let (u, v) = (ball.knots_u().clone(), ball.knots_v().clone());
+        let ball = Surface::rational(u, v, net.collect(), ball.weights().to_vec()).unwrap();
+        let triangles = triangulated(&ball, 64, 48, false);
+        let shell = Enclosure::new(vec![ball]).unwrap();
+        let (low, high) = shell.bounds();
+        for p in scattered(150, low, high) {
+            let turns = winding(&triangles, p);
+            if shell.distance(p, 0.02).is_none() {
+                // The dents may cut through each other: then parity is what counts.
+                prop_assert_eq!(shell.contains(p), turns.round().rem_euclid(2.0) == 1.0, "{} {}", p, turns);
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 //!
 //! The functions here trust their arguments; [`super::KnotVector`] is what makes them trustworthy.
 
-/// Values of the `degree + 1` basis functions that are not zero on the given span ([PT97] A2.2).
+/// Values of the `degree + 1` basis functions that are not zero on the given span (PT97 A2.2).
 pub(super) fn values(knots: &[f64], degree: usize, span: usize, u: f64, out: &mut [f64]) {
     out[0] = 1.0;
     for j in 1..=degree {
@@ -10,15 +10,16 @@ pub(super) fn values(knots: &[f64], degree: usize, span: usize, u: f64, out: &mu
         for r in 0..j {
             let right = knots[span + r + 1] - u;
             let left = u - knots[span + 1 + r - j];
-            let share = out[r] / (right + left);
-            out[r] = saved + right * share;
-            saved = left * share;
+            // As a fraction, so that a clamped end has its one function at one to the last bit.
+            let share = out[r] * (left / (right + left));
+            out[r] = saved + (out[r] - share);
+            saved = share;
         }
         out[j] = saved;
     }
 }
 
-/// Derivatives of order `0..=order` of the basis functions that are not zero on the given span ([PT97] A2.3):
+/// Derivatives of order `0..=order` of the basis functions that are not zero on the given span (PT97 A2.3):
 /// `out[k][j]` is the k-th derivative of `N_{span-degree+j}`. `order` must not exceed `degree`, and `degree` must be below `N`.
 pub(super) fn derivatives<const N: usize>(
     knots: &[f64],
@@ -48,7 +49,7 @@ pub(super) fn derivatives<const N: usize>(
         out[0][j] = table[j][p];
     }
     for r in 0..=p {
-        // Two alternating rows of the coefficients a_{k,j} of [PT97] Eq. 2.10.
+        // Two alternating rows of the coefficients a_{k,j} of PT97 Eq. 2.10.
         let mut rows = [[0.0; N]; 2];
         let (mut old, mut new) = (0, 1);
         rows[0][0] = 1.0;

@@ -180,6 +180,10 @@ impl Search {
                 stack.extend([low, high]);
             }
         }
+        // What is good enough for the bound can still be made as good as rounding allows.
+        if let Some(best) = self.best.as_mut().filter(|best| best.patch == k) {
+            (best.s, best.t, best.distance) = sharpen(root, best.s, best.t);
+        }
     }
 
     /// Takes the place, sharpened by Newton's method, if it is the best so far.
@@ -236,34 +240,15 @@ impl Search {
 fn sharpen(patch: &Patch, mut s: f64, mut t: f64) -> (f64, f64, f64) {
     let mut distance = patch.jet(s, t).point.length();
     for _ in 0..20 {
-        let (jet, [uu, uv, vv]) = patch.second_jet(s, t);
-        let gradient = (jet.point.dot(jet.du), jet.point.dot(jet.dv));
-        let mut hessian = (
-            jet.du.length_squared() + jet.point.dot(uu),
-            jet.du.dot(jet.dv) + jet.point.dot(uv),
-            jet.dv.length_squared() + jet.point.dot(vv),
-        );
-        // At a side that the descent pushes against, slide along it.
-        let blocked = |x: f64, slope: f64| (x <= 0.0 && slope > 0.0) || (x >= 1.0 && slope < 0.0);
-        let hold_u = blocked(s, gradient.0) || jet.du == DVec3::ZERO;
-        let hold_v = blocked(t, gradient.1) || jet.dv == DVec3::ZERO;
-        let determinant = |h: (f64, f64, f64)| h.0 * h.2 - h.1 * h.1;
-        if hessian.0 <= 0.0 || hessian.2 <= 0.0 || determinant(hessian) <= 0.0 {
-            hessian = (
-                jet.du.length_squared(),
-                jet.du.dot(jet.dv),
-                jet.dv.length_squared(),
-            );
-        }
-        let step = match (hold_u, hold_v) {
-            (true, true) => break,
-            (true, false) => (0.0, -gradient.1 / hessian.2),
-            (false, true) => (-gradient.0 / hessian.0, 0.0),
-            (false, false) => {
-                let d = determinant(hessian);
-                let (g, h) = (gradient, hessian);
-                ((h.1 * g.1 - h.2 * g.0) / d, (h.1 * g.0 - h.0 * g.1) / d)
-            }
+        let Some(step) = newton_step(patch, s, t) else {
+            break;
+        };
+        let longest = step.0.abs().max(step.1.abs());
+        // Next to the foot point the distance is flat to rounding, but the parameters still improve.
+        let most = if longest < 1e-5 {
+            distance * (1.0 + 1e-14)
+        } else {
+            distance
         };
         let mut factor = 1.0;
         let mut moved = None;
@@ -273,9 +258,7 @@ fn sharpen(patch: &Patch, mut s: f64, mut t: f64) -> (f64, f64, f64) {
                 (t + factor * step.1).clamp(0.0, 1.0),
             );
             let length = patch.jet(next.0, next.1).point.length();
-            // Next to the foot point the distance is flat to rounding, but the parameters still improve.
-            let last_steps = step.0.abs().max(step.1.abs()) < 1e-5;
-            if length < distance || (last_steps && length <= distance * (1.0 + 1e-15)) {
+            if length < distance || (longest < 1e-5 && length <= most) {
                 moved = Some((next, length));
                 break;
             }
@@ -283,9 +266,43 @@ fn sharpen(patch: &Patch, mut s: f64, mut t: f64) -> (f64, f64, f64) {
         }
         let Some((next, length)) = moved else { break };
         (s, t, distance) = (next.0, next.1, length);
-        if step.0.abs().max(step.1.abs()) < 1e-14 {
+        if longest < 1e-14 {
             break;
         }
     }
     (s, t, distance)
+}
+
+/// The step to where half the squared distance from the origin has no slope: by its second derivatives where they curve
+/// upwards, else by the first derivatives alone (Gauss–Newton). `None` in a corner that the descent pushes into.
+fn newton_step(patch: &Patch, s: f64, t: f64) -> Option<(f64, f64)> {
+    let (jet, [uu, uv, vv]) = patch.second_jet(s, t);
+    let slope = (jet.point.dot(jet.du), jet.point.dot(jet.dv));
+    // At a side that the descent pushes against, slide along it.
+    let blocked = |x: f64, slope: f64| (x <= 0.0 && slope > 0.0) || (x >= 1.0 && slope < 0.0);
+    let hold_u = blocked(s, slope.0) || jet.du == DVec3::ZERO;
+    let hold_v = blocked(t, slope.1) || jet.dv == DVec3::ZERO;
+    let flat = (
+        jet.du.length_squared(),
+        jet.du.dot(jet.dv),
+        jet.dv.length_squared(),
+    );
+    let bend = (jet.point.dot(uu), jet.point.dot(uv), jet.point.dot(vv));
+    let curved = (flat.0 + bend.0, flat.1 + bend.1, flat.2 + bend.2);
+    let determinant = |h: (f64, f64, f64)| h.0 * h.2 - h.1 * h.1;
+    let choose = |upwards: bool| if upwards { curved } else { flat };
+    match (hold_u, hold_v) {
+        (true, true) => None,
+        (true, false) => Some((0.0, -slope.1 / choose(curved.2 > 0.0).2)),
+        (false, true) => Some((-slope.0 / choose(curved.0 > 0.0).0, 0.0)),
+        (false, false) => {
+            let h = choose(curved.0 > 0.0 && determinant(curved) > 0.0);
+            let d = determinant(h);
+            let step = (
+                (h.1 * slope.1 - h.2 * slope.0) / d,
+                (h.1 * slope.0 - h.0 * slope.1) / d,
+            );
+            (step.0.is_finite() && step.1.is_finite()).then_some(step)
+        }
+    }
 }

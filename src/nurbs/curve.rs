@@ -1,4 +1,4 @@
-//! Rational B-spline curves ([J19] Eq. 1): `C(u) = Σ N_{i,p}(u) w_i P_i / Σ N_{i,p}(u) w_i`.
+//! Rational B-spline curves (J19 Eq. 1): `C(u) = Σ N_{i,p}(u) w_i P_i / Σ N_{i,p}(u) w_i`.
 //!
 //! Degrees 1, 2 and 3 are the useful ones; conics need degree 2 and weights (a quarter of an ellipse: middle weight
 //! √2/2). Other files of this module add refinement, elevation, splitting, reversal, bounds and closest points.
@@ -191,7 +191,7 @@ impl Curve {
         sum / weight
     }
 
-    /// The point and its derivatives up to the given order, exact to rounding ([PT97] A3.2, A4.2).
+    /// The point and its derivatives up to the given order, exact to rounding (PT97 A3.2, A4.2).
     pub fn derivatives(&self, u: f64, order: usize) -> Vec<DVec3> {
         let mut homogeneous = vec![DVec4::ZERO; order + 1];
         self.knots

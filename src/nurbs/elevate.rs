@@ -2,7 +2,7 @@
 //!
 //! By polar forms (Prautzsch 1984, *Degree elevation of B-spline curves*): the elevated control point that belongs to
 //! the knots `t_1 … t_{p+1}` is the mean of the blossom over all ways to leave one of them out. Costs more arithmetic
-//! than [PT97] A5.9 (Piegl & Tiller 1994, Huang 2005), which only matters for nets far larger than geology's.
+//! than PT97 A5.9 (Piegl & Tiller 1994, Huang 2005), which only matters for nets far larger than geology's.
 
 use super::{Curve, KnotVector, MAX_DEGREE, Surface};
 use glam::DVec4;
@@ -31,7 +31,7 @@ impl KnotVector {
     }
 }
 
-/// The polar form of the piece on `span` at as many arguments as the degree ([PT97] has it as A5.2 without the name).
+/// The polar form of the piece on `span` at as many arguments as the degree (PT97 has it as A5.2 without the name).
 fn blossom(knots: &KnotVector, points: &[DVec4], span: usize, arguments: &[f64]) -> DVec4 {
     let p = knots.degree();
     let u = knots.as_slice();

@@ -1,4 +1,4 @@
-//! Global interpolation: curves through given points ([J19] Eq. 7–9, [PT97] §9.2.1).
+//! Global interpolation: curves through given points (J19 Eq. 7–9, PT97 §9.2.1).
 
 use super::banded::Banded;
 use super::{Curve, CurveError, KnotError, KnotVector};
@@ -8,7 +8,7 @@ use thiserror::Error;
 /// How parameters are spread over the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parametrization {
-    /// In proportion to the distances between the points ([J19] Eq. 7 with a = 1).
+    /// In proportion to the distances between the points (J19 Eq. 7 with a = 1).
     ChordLength,
     /// In proportion to the square roots of the distances (a = 2); calmer at sharp turns.
     Centripetal,
@@ -86,7 +86,7 @@ pub enum InterpolateError {
     Curve(#[from] CurveError),
 }
 
-/// Parameters from 0 to 1 for the points ([J19] Eq. 7–8).
+/// Parameters from 0 to 1 for the points (J19 Eq. 7–8).
 pub fn parameters(
     points: &[DVec3],
     spacing: Parametrization,
@@ -120,7 +120,7 @@ pub fn parameters(
     Ok(sums.iter().map(|s| s / sum).collect())
 }
 
-/// The knot vector whose interior knots are means of `degree` neighbouring parameters ([J19] Eq. 9, [PT97] Eq. 9.8),
+/// The knot vector whose interior knots are means of `degree` neighbouring parameters (J19 Eq. 9, PT97 Eq. 9.8),
 /// which keeps the equations solvable.
 pub fn averaged_knots(degree: usize, params: &[f64]) -> Result<KnotVector, InterpolateError> {
     let needed = degree + 1;

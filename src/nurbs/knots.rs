@@ -1,6 +1,6 @@
 //! Knot vectors: the parameter values where the pieces of a spline meet.
 //!
-//! Notation follows [PT97] §2.2 and [J19] Eq. 2: a curve of degree p with n control points has n + p + 1 knots
+//! Notation follows PT97 §2.2 and J19 Eq. 2: a curve of degree p with n control points has n + p + 1 knots
 //! `u_0 ≤ u_1 ≤ …`. Only clamped vectors are made (the first and the last knot p + 1 times, so that curves start and
 //! end at their outer control points), with interior knots at most p times (so that curves are continuous).
 
@@ -213,7 +213,7 @@ impl KnotVector {
         Ok(vector)
     }
 
-    /// The clamped knot vector on [0, 1] whose interior knots are evenly spaced ([J19] Eq. 2).
+    /// The clamped knot vector on [0, 1] whose interior knots are evenly spaced (J19 Eq. 2).
     pub fn uniform(degree: usize, control_points: usize) -> Result<Self, KnotError> {
         check_degree(degree)?;
         let needed = degree + 1;
@@ -269,13 +269,13 @@ impl KnotVector {
         resolution(start, end)
     }
 
-    /// Index i of the span `[u_i, u_{i+1})` that holds u; the last span holds its right end too ([PT97] A2.1).
+    /// Index i of the span `[u_i, u_{i+1})` that holds u; the last span holds its right end too (PT97 A2.1).
     pub fn span(&self, u: f64) -> usize {
         let interior = &self.knots[self.degree + 1..self.count()];
         self.degree + interior.partition_point(|&knot| knot <= u)
     }
 
-    /// The basis functions that are not zero at u ([PT97] A2.2).
+    /// The basis functions that are not zero at u (PT97 A2.2).
     pub fn basis(&self, u: f64) -> Basis {
         let u = self.clamp(u);
         let span = self.span(u);
@@ -289,7 +289,7 @@ impl KnotVector {
     }
 
     /// Derivatives of the basis functions of u's span: entry `[k][j]` is the k-th derivative, `k ≤ order`, of basis
-    /// function `span(u) - degree + j` ([PT97] A2.3). Above the degree they are zero.
+    /// function `span(u) - degree + j` (PT97 A2.3). Above the degree they are zero.
     pub fn basis_derivatives(&self, u: f64, order: usize) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; self.degree + 1]; order + 1];
         self.with_basis_derivatives(u, order, |_, k, values| rows[k].copy_from_slice(values));

@@ -1,8 +1,8 @@
 //! Rational B-spline (NURBS) curves and surfaces: the geometry on which everything else stands.
 //!
-//! Notation follows Piegl & Tiller, *The NURBS Book*, 2nd edition, 1997 (**[PT97]**; algorithm numbers are
+//! Notation follows Piegl & Tiller, *The NURBS Book*, 2nd edition, 1997 (**PT97**; algorithm numbers are
 //! theirs) and Jacquemyn, Jackson & Hampson, *Surface-Based Geological Reservoir Modelling Using Grid-Free NURBS
-//! Curves and Surfaces*, Math. Geosci. 51, 2019 (**[J19]**; equation numbers are theirs).
+//! Curves and Surfaces*, Math. Geosci. 51, 2019 (**J19**; equation numbers are theirs).
 //!
 //! - [`KnotVector`], [`Curve`] and [`Surface`] can only be made valid, so holding one proves that it is.
 //! - Every operation leaves its operand as it was and returns a new one.
@@ -12,6 +12,7 @@
 mod banded;
 mod basis;
 mod bezier;
+mod bounds;
 mod closest;
 mod curve;
 mod derive;
@@ -19,6 +20,7 @@ mod elevate;
 pub mod enclosure;
 pub mod interpolate;
 mod knots;
+mod length;
 mod refine;
 mod reverse;
 mod ruled;

@@ -1,4 +1,4 @@
-//! Knot insertion and refinement: more control points, the same shape ([PT97] §5.2–5.3).
+//! Knot insertion and refinement: more control points, the same shape (PT97 §5.2–5.3).
 
 use super::{Curve, KnotVector, Surface};
 use glam::DVec4;
@@ -113,7 +113,7 @@ impl KnotVector {
     }
 }
 
-/// Control points after insertion of the knots `added`, sorted and strictly inside the domain ([PT97] A5.4). Control
+/// Control points after insertion of the knots `added`, sorted and strictly inside the domain (PT97 A5.4). Control
 /// points that no new knot concerns are copied; the others are convex combinations.
 fn refined(knots: &KnotVector, points: &[DVec4], added: &[f64]) -> Vec<DVec4> {
     let (Some(&lowest), Some(&highest)) = (added.first(), added.last()) else {

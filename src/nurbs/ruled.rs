@@ -1,4 +1,4 @@
-//! Ruled surfaces: straight lines between two curves ([PT97] §8.4).
+//! Ruled surfaces: straight lines between two curves (PT97 §8.4).
 
 use super::{Curve, KnotVector, Surface, SurfaceError};
 

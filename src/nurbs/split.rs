@@ -1,4 +1,4 @@
-//! Splitting at a parameter, and into Bézier segments and patches ([PT97] §5.3).
+//! Splitting at a parameter, and into Bézier segments and patches (PT97 §5.3).
 
 use super::{Curve, KnotVector, RefineError, Surface};
 

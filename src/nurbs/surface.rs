@@ -1,4 +1,4 @@
-//! Rational B-spline surfaces ([J19] Eq. 3–6): tensor products of two knot vectors over one net of control points.
+//! Rational B-spline surfaces (J19 Eq. 3–6): tensor products of two knot vectors over one net of control points.
 //!
 //! The net is u-major: the control point i in u and j in v is entry `i * nv + j`. Degrees may differ between u and v.
 
@@ -221,7 +221,7 @@ impl Surface {
         if self.rational { sum / weight } else { sum }
     }
 
-    /// The point and its derivatives, exact to rounding ([PT97] A3.6, A4.4): entry `[k][l]`, `k + l ≤ order`, is the
+    /// The point and its derivatives, exact to rounding (PT97 A3.6, A4.4): entry `[k][l]`, `k + l ≤ order`, is the
     /// derivative k times in u and l times in v.
     pub fn derivatives(&self, u: f64, v: f64, order: usize) -> Vec<Vec<DVec3>> {
         let nv = self.v.count();

@@ -126,20 +126,10 @@ impl Part {
                 dv: dv * in_v,
             }
         };
-        if let Some(mut crossing) = projection.locate(p.xy(), guess, shell.tolerance, jet) {
-            let above = crossing.height - p.z;
-            if above.abs() <= shell.width {
-                tally.touch();
-                return false;
-            }
-            if above > 0.0 && crossing.on_side {
-                crossing.place(&self.region);
-                tally.seam(piece, &crossing);
-            } else if above > 0.0 {
-                tally.cross();
-            }
+        if let Some(crossing) = projection.locate(p.xy(), guess, shell.tolerance, jet) {
+            tally.add(piece, &self.region, crossing, p.z, shell.width);
         }
-        true
+        !tally.on_shell()
     }
 }
 
@@ -238,15 +228,17 @@ fn rougher(patch: &Patch) -> Along {
         let part = |change: f64, longest: f64| if longest > 0.0 { change / longest } else { 0.0 };
         part(change[0], longest_u) + part(change[1], longest_v)
     };
-    let (along_u, along_v) = (relative(change_u) * p as f64, relative(change_v) * q as f64);
-    if along_u == along_v {
+    let (bent_u, bent_v) = (relative(change_u) * p as f64, relative(change_v) * q as f64);
+    // Times the length, so that a wedge at a pole is not cut into ever thinner wedges, but shortened too.
+    let (score_u, score_v) = (bent_u * longest_u * p as f64, bent_v * longest_v * q as f64);
+    if score_u == score_v {
         return if longest_u * p as f64 >= longest_v * q as f64 {
             Along::U
         } else {
             Along::V
         };
     }
-    if along_u > along_v {
+    if score_u > score_v {
         Along::U
     } else {
         Along::V

@@ -2,8 +2,8 @@
 //!
 //! A ray from the point crosses the shell an odd number of times if the point is inside. The first ray goes straight up,
 //! through patches cut small enough, once and for all, that most crossings are decided by a few multiplications
-//! ([`columns`]). A ray that meets an edge of the shell, a fold or a vertical face decides nothing; then rays in a fixed
-//! list of oblique directions follow ([`oblique`]), until one is clear of them. The answer doesn't depend on the surfaces'
+//! (`columns`). A ray that meets an edge of the shell, a fold or a vertical face decides nothing; then rays in a fixed
+//! list of oblique directions follow (`oblique`), until one is clear of them. The answer doesn't depend on the surfaces'
 //! orientations, nor on whether they overhang or are rational.
 //!
 //! A point on the shell, as far as rounding can tell, counts as inside.
@@ -258,4 +258,98 @@ fn net_box(surfaces: &[Surface]) -> (DVec3, DVec3) {
 fn size(surfaces: &[Surface]) -> f64 {
     let (low, high) = net_box(surfaces);
     (high - low).length()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+    use crate::nurbs::KnotVector;
+    use crate::nurbs::interpolate;
+    use proptest::prelude::*;
+
+    /// A winding gutter whose banks overhang, its ruled top and its two ends.
+    fn gutter() -> Vec<Surface> {
+        let section = [
+            (-3.0, 0.0),
+            (-7.0, -2.0),
+            (-1.0, -4.0),
+            (2.0, -4.0),
+            (6.0, -1.0),
+            (3.0, 0.0),
+        ];
+        let along: Vec<f64> = (0..20).map(f64::from).collect();
+        let place = |y: f64, z: f64, s: f64| {
+            let bend = (0.6 * s).sin();
+            DVec3::new(8.0 * s - 2.0 * bend * y, y + 12.0 * bend, z + bend)
+        };
+        let row = |&(y, z): &(f64, f64)| along.iter().map(|&s| place(y, z, s)).collect();
+        let rows: Vec<Vec<DVec3>> = section.iter().map(row).collect();
+        let (v, rows) = interpolate::with_parameters(&rows, &along, 3).unwrap();
+        let u = KnotVector::uniform(3, section.len()).unwrap();
+        let base = Surface::new(u, v, rows.concat()).unwrap();
+        let top = Surface::ruled(&base.isocurve_u(0.0), &base.isocurve_u(1.0)).unwrap();
+        let end = |s: f64| Surface::ruled(&base.isocurve_v(s), &top.isocurve_v(s)).unwrap();
+        let ends = [end(0.0), end(19.0)];
+        [vec![base, top], ends.to_vec()].concat()
+    }
+
+    /// Asks all rays of scattered points and returns how many were inside; clear rays must agree.
+    fn ask(shell: &Enclosure, points: u32) -> (usize, usize, usize) {
+        let (low, high) = shell.bounds();
+        let (mut clear, mut unclear, mut held) = (0, 0, 0);
+        for k in 0..points {
+            let part = DVec3::new(0.819_172_513, 0.671_043_607, 0.549_700_478) * f64::from(k);
+            let p = low + (high - low) * part.fract() - shell.shell.centre;
+            let oblique =
+                oblique::DIRECTIONS.map(|d| oblique::cast(&shell.shell, p, DVec3::from_array(d)));
+            let all = [&[shell.columns.cast(&shell.shell, p)], oblique.as_slice()].concat();
+            let parity = |outcome: &Outcome| match outcome {
+                Outcome::Crossings(count) => Some(count % 2),
+                Outcome::OnShell | Outcome::Unclear(_) => None,
+            };
+            let said: Vec<usize> = all.iter().filter_map(parity).collect();
+            assert!(
+                said.windows(2).all(|pair| pair[0] == pair[1]),
+                "{p}: {all:?}"
+            );
+            assert!(!said.is_empty());
+            clear += said.len();
+            unclear += all.len() - said.len();
+            held += said[0];
+        }
+        (clear, unclear, held)
+    }
+
+    #[test]
+    fn all_rays_that_are_clear_say_the_same_of_a_point() {
+        let shell = Enclosure::new(gutter()).unwrap();
+        let (clear, unclear, held) = ask(&shell, 3000);
+        assert!(held > 300, "{held}");
+        // Doubt is rare, so it costs little.
+        assert!(unclear * 50 < clear, "{unclear} of {clear}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn all_clear_rays_agree_about_any_closed_surface_even_if_it_crosses_itself(
+            degree_u in 1..=3_usize,
+            degree_v in 1..=3_usize,
+            net in prop::collection::vec((-1.0..1.0, -1.0..1.0, -1.0..1.0, 0.4..2.5), 56),
+        ) {
+            // Closed in u by a seam, in v by two poles.
+            let at = |i: usize, j: usize| {
+                let (x, y, z, w) = net[match j { 0 => 0, 6 => 1, _ => (i % 7) * 7 + j + 2 }];
+                (DVec3::new(x, y, z), w)
+            };
+            let entries = (0..8).flat_map(|i| (0..7).map(move |j| at(i, j)));
+            let (points, weights): (Vec<_>, Vec<_>) = entries.unzip();
+            let knots = (KnotVector::uniform(degree_u, 8).unwrap(), KnotVector::uniform(degree_v, 7).unwrap());
+            let surface = Surface::rational(knots.0, knots.1, points, weights).unwrap();
+            let shell = Enclosure::new(vec![surface]).unwrap();
+            ask(&shell, 60);
+        }
+    }
 }

@@ -48,52 +48,50 @@ pub(super) fn cast(shell: &Shell, p: DVec3, direction: DVec3) -> Outcome {
 
 /// Counts the crossings of one patch, whose coordinates are such that the ray is the positive z axis.
 fn cross(shell: &Shell, k: usize, seen: Patch, tally: &mut Tally) {
-    let near = shell.width;
     let mut stack = vec![(seen, Region::UNIT)];
     let mut pieces = 0;
     while let Some((patch, region)) = stack.pop() {
         let (low, high) = patch.hull();
-        let low = low - shell.tolerance;
-        let high = high + shell.tolerance;
+        let (low, high) = (low - shell.tolerance, high + shell.tolerance);
         if low.x > 0.0 || high.x < 0.0 || low.y > 0.0 || high.y < 0.0 || high.z < 0.0 {
             continue;
         }
-        pieces += 1;
         if let Some(projection) = Projection::new(&patch, shell.tolerance) {
-            match projection.judge(DVec3::ZERO, near) {
-                Verdict::Miss => {}
-                Verdict::Crosses => tally.cross(),
-                Verdict::Near(guess) => {
-                    let jet = |s: DVec2| patch.jet(s.x, s.y);
-                    let Some(mut crossing) =
-                        projection.locate(DVec2::ZERO, guess, shell.tolerance, jet)
-                    else {
-                        continue;
-                    };
-                    if crossing.height.abs() <= near {
-                        tally.touch();
-                    } else if crossing.height > 0.0 {
-                        if crossing.on_side {
-                            crossing.place(&region);
-                            tally.seam(&shell.patches[k], &crossing);
-                        } else {
-                            tally.cross();
-                        }
-                    }
-                }
-            }
+            cross_regular(shell, k, &patch, &region, &projection, tally);
             continue;
         }
+        pieces += 1;
         let (in_u, in_v) = patch.lengths(|leg| leg.xy().length());
-        if in_u.max(in_v) <= 32.0 * shell.tolerance || pieces > MOST_PIECES {
+        if pieces > MOST_PIECES {
             tally.doubt();
-            if pieces > MOST_PIECES {
-                return;
-            }
+            return;
+        }
+        if in_u.max(in_v) <= 32.0 * shell.tolerance {
+            tally.doubt();
             continue;
         }
         let along = if in_u >= in_v { Along::U } else { Along::V };
         stack.extend(halves(&patch, &region, along));
+    }
+}
+
+/// Counts the crossing of a part that is close to linear.
+fn cross_regular(
+    shell: &Shell,
+    k: usize,
+    patch: &Patch,
+    region: &Region,
+    projection: &Projection,
+    tally: &mut Tally,
+) {
+    let guess = match projection.judge(DVec3::ZERO, shell.width) {
+        Verdict::Miss => return,
+        Verdict::Crosses => return tally.cross(),
+        Verdict::Near(guess) => guess,
+    };
+    let jet = |s: DVec2| patch.jet(s.x, s.y);
+    if let Some(crossing) = projection.locate(DVec2::ZERO, guess, shell.tolerance, jet) {
+        tally.add(&shell.patches[k], region, crossing, 0.0, shell.width);
     }
 }
 

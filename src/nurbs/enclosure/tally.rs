@@ -2,6 +2,7 @@
 
 use super::Piece;
 use super::projection::Crossing;
+use crate::nurbs::bezier::Region;
 
 /// What one ray says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,9 +38,30 @@ impl Tally {
         self.count += 1;
     }
 
-    /// The ray starts on the shell.
-    pub(super) fn touch(&mut self) {
-        self.on_shell = true;
+    /// A crossing with a part of a patch, for a ray that starts at the height `start`; below `width` the two can't be
+    /// told apart.
+    pub(super) fn add(
+        &mut self,
+        piece: &Piece,
+        part: &Region,
+        mut crossing: Crossing,
+        start: f64,
+        width: f64,
+    ) {
+        let above = crossing.height - start;
+        if above.abs() <= width {
+            self.on_shell = true;
+        } else if above > 0.0 && crossing.on_side {
+            crossing.place(part);
+            self.seam(piece, &crossing);
+        } else if above > 0.0 {
+            self.cross();
+        }
+    }
+
+    /// Whether the ray starts on the shell.
+    pub(super) fn on_shell(&self) -> bool {
+        self.on_shell
     }
 
     /// The ray meets something that it can't count.
@@ -48,7 +70,7 @@ impl Tally {
     }
 
     /// A crossing on the side of a part of a patch.
-    pub(super) fn seam(&mut self, piece: &Piece, crossing: &Crossing) {
+    fn seam(&mut self, piece: &Piece, crossing: &Crossing) {
         let range = |[start, end]: [f64; 2]| end - start;
         let (u, v) = piece
             .region
