@@ -123,6 +123,31 @@ std::array<double, 6> shape_bounds(const ShapeHandle& shape) {
   return b;
 }
 
+rust::Vec<BoxData> solid_boxes(const SolidsHandle& solids, bool parallel) {
+  // A box per face first: two solids share it, and a face's box from its poles costs next to nothing.
+  TopTools_IndexedMapOfShape index;
+  for (const TopoDS_Face& face : solids.faces) index.Add(face);
+  std::vector<Bnd_Box> boxes(solids.faces.size());
+  for_each_index(solids.faces.size(), parallel, [&](std::size_t i) {
+    BRepBndLib::Add(solids.faces[i], boxes[i], Standard_False);
+    boxes[i].SetGap(0.0);
+  });
+  rust::Vec<BoxData> out;
+  for (const TopoDS_Solid& solid : solids.solids) {
+    Bnd_Box box;
+    for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next()) {
+      const int at = index.FindIndex(it.Current().Oriented(TopAbs_FORWARD));
+      if (at == 0) throw Refused("a solid has a face that is not in the table of faces");
+      box.Add(boxes[static_cast<std::size_t>(at - 1)]);
+    }
+    if (box.IsVoid()) throw Refused("a solid has no faces");
+    BoxData data{};
+    box.Get(data.min[0], data.min[1], data.min[2], data.max[0], data.max[1], data.max[2]);
+    out.push_back(data);
+  }
+  return out;
+}
+
 rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double eps, std::array<double, 3> reference, bool parallel) {
   check_eps(eps);
   const gp_Pnt at(reference[0], reference[1], reference[2]);

@@ -28,6 +28,8 @@ Integral face_area(const TopoDS_Face& face, double eps);
 double shape_volume(const ShapeHandle& shape, double eps);
 double shape_area(const ShapeHandle& shape, double eps);
 std::array<double, 6> shape_bounds(const ShapeHandle& shape);
+// A box around every solid, from control points.
+rust::Vec<BoxData> solid_boxes(const SolidsHandle& solids, bool parallel);
 rust::Vec<FaceIntegralData> integrate_faces(const SolidsHandle& solids, double eps, std::array<double, 3> reference, bool parallel);
 rust::Vec<FaceSampleData> sample_faces(const SolidsHandle& solids, std::size_t per_face, bool parallel);
 

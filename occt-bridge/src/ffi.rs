@@ -100,6 +100,11 @@ pub(crate) mod bridge {
         faces: Vec<u32>,
     }
 
+    struct BoxData {
+        min: [f64; 3],
+        max: [f64; 3],
+    }
+
     #[derive(Default, Clone)]
     struct FaceIntegralData {
         area: f64,
@@ -209,6 +214,7 @@ pub(crate) mod bridge {
         fn shape_volume(shape: &ShapeHandle, eps: f64) -> Result<f64>;
         fn shape_area(shape: &ShapeHandle, eps: f64) -> Result<f64>;
         fn shape_bounds(shape: &ShapeHandle) -> Result<[f64; 6]>;
+        fn solid_boxes(solids: &SolidsHandle, parallel: bool) -> Result<Vec<BoxData>>;
         fn integrate_faces(
             solids: &SolidsHandle,
             eps: f64,

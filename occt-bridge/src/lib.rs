@@ -40,7 +40,7 @@ pub use check::{Defect, defects};
 pub use error::BridgeError;
 pub use measure::{
     Bounds, Classifier, FaceIntegral, FaceSample, Position, area, bounds, face_integrals,
-    face_samples, volume,
+    face_samples, solid_boxes, volume,
 };
 pub use mesh::{FaceMesh, MeshOptions, triangulate, triangulate_solids};
 pub use monitor::Cancel;

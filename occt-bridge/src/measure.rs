@@ -52,6 +52,20 @@ pub fn face_integrals(
         .collect())
 }
 
+/// A box around every solid, in their order. From control points, so it may be a little larger than [`bounds`], which is tight and
+/// takes a thousand times as long.
+pub fn solid_boxes(solids: &Solids, threads: Threads) -> Result<Vec<Bounds>, BridgeError> {
+    let found = bridge::solid_boxes(&solids.handle, threads.parallel())
+        .map_err(|e| from_kernel("bounding solids", &e))?;
+    Ok(found
+        .into_iter()
+        .map(|b| Bounds {
+            min: b.min,
+            max: b.max,
+        })
+        .collect())
+}
+
 /// A point strictly inside a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceSample {

@@ -4,6 +4,7 @@
 //! needs only sampled answers: sections, previews, logs, Monte Carlo volumes.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::realisation::{Instance, Realisation};
 use super::rules::{Rules, Verdict};
