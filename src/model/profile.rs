@@ -83,3 +83,51 @@ fn interpolate(points: &[(f64, f64)], s: f64) -> f64 {
         (None, None) => f64::NAN,
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::{Course, Profile};
+    use crate::model::{Distribution, Expression, Quantity, Stream};
+
+    #[test]
+    fn a_list_is_linear_between_its_points_and_constant_outside() {
+        let course = Course::Along(vec![(0.2, 10.0), (0.6, 30.0), (0.8, 20.0)]);
+        for (s, value) in [
+            (0.0, 10.0),
+            (0.2, 10.0),
+            (0.3, 15.0),
+            (0.6, 30.0),
+            (0.7, 25.0),
+            (0.8, 20.0),
+            (1.0, 20.0),
+        ] {
+            assert!((course.at(s).unwrap() - value).abs() < 1e-12, "{s}");
+        }
+    }
+
+    #[test]
+    fn a_drawn_list_keeps_its_fractions_and_draws_every_value_once() {
+        let random = Quantity::Random(Distribution::uniform(0.0, 1.0).unwrap());
+        let profile = Profile::Along(vec![
+            (0.0, random.clone()),
+            (0.5, Quantity::Constant(7.0)),
+            (1.0, random),
+        ]);
+        let mut stream = Stream::new(1, "a", 0, "width", 0);
+        let mut same = stream.clone();
+        let Course::Along(points) = profile.draw(&mut stream).unwrap() else {
+            unreachable!()
+        };
+        assert_eq!(points, [(0.0, same.unit()), (0.5, 7.0), (1.0, same.unit())]);
+    }
+
+    #[test]
+    fn a_formula_is_evaluated_at_the_fraction() {
+        let formula = Expression::new("20 + 10 * s", "s").unwrap();
+        let mut stream = Stream::new(1, "a", 0, "width", 0);
+        let course = Profile::Expression(formula).draw(&mut stream).unwrap();
+        assert_eq!(course.at(0.5), Ok(25.0));
+        assert!(!course.is_constant());
+    }
+}

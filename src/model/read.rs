@@ -15,9 +15,9 @@ use serde::de::{
     Visitor,
 };
 
-use super::defects::{Collector, Defect, Span};
+use super::defects::{Collector, Defect};
 use super::suggest;
-use super::tree::{Entry, NodeId, Tree, Value, quoted};
+use super::tree::{Entry, NodeId, Tree, Value};
 
 /// No length, elevation or ratio in a model of the Earth is larger.
 const HUGE: f64 = 1e9;
@@ -91,6 +91,7 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for FieldVisitor<T> {
 /// Reads the tables of a tree and gathers what is wrong.
 pub(crate) struct Reader<'t> {
     pub(crate) tree: &'t Tree,
+    holders: Vec<Option<NodeId>>,
     defects: RefCell<Collector>,
     /// The keys that some struct asked for, by table.
     known: RefCell<BTreeMap<NodeId, Vec<&'static str>>>,
@@ -101,6 +102,7 @@ impl<'t> Reader<'t> {
     pub(crate) fn new(tree: &'t Tree, defects: Collector) -> Self {
         Self {
             tree,
+            holders: tree.holders(),
             defects: RefCell::new(defects),
             known: RefCell::default(),
             found: Cell::new(0),
@@ -128,7 +130,38 @@ impl<'t> Reader<'t> {
         message: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        self.report(Defect::new(self.tree.span(node), message, remedy));
+        let defect = Defect::new(self.tree.span(node), message, remedy);
+        self.report(if self.is_full() {
+            defect
+        } else {
+            defect.with_path(self.path(node))
+        });
+    }
+
+    /// Whether further defects are only counted, so that no remedy need be found for them.
+    pub(crate) fn is_full(&self) -> bool {
+        self.defects.borrow().is_full()
+    }
+
+    /// A remedy that costs a search, unless nobody will read it.
+    pub(crate) fn hint(&self, remedy: impl FnOnce() -> String) -> String {
+        if self.is_full() {
+            String::new()
+        } else {
+            remedy()
+        }
+    }
+
+    /// The keys that lead to a node, as `feature.channel.width`.
+    pub(crate) fn path(&self, node: NodeId) -> String {
+        let mut steps = Vec::new();
+        let mut at = node;
+        while let Some(Some(holder)) = self.holders.get(at.0) {
+            steps.push(self.tree.step(*holder, at));
+            at = *holder;
+        }
+        steps.reverse();
+        steps.join(".")
     }
 
     /// Reads the table `node` as a struct; `None` if it is no table (which is then a defect).
@@ -142,10 +175,21 @@ impl<'t> Reader<'t> {
         match T::deserialize(deserializer) {
             Ok(value) => Some(value),
             Err(failure) => {
-                self.report(failure.into_defect(self.tree.span(node)));
+                self.failed(failure, node);
                 None
             }
         }
+    }
+
+    fn failed(&self, failure: Failure, node: NodeId) {
+        let node = failure.node.unwrap_or(node);
+        let path = self.hint(|| self.path(node));
+        let message = if path.is_empty() {
+            failure.message
+        } else {
+            format!("{}: {}", suggest::code(&path), failure.message)
+        };
+        self.wrong(node, message, failure.remedy);
     }
 
     /// Reads a finite number.
@@ -153,38 +197,35 @@ impl<'t> Reader<'t> {
         self.read(node)
     }
 
-    /// The value of a key that must be there; its absence is a defect of `table`.
+    /// The value of a key that must be there; its absence is a defect of `table`, which messages call `name`.
     pub(crate) fn need<T>(
         &self,
         field: Field<T>,
         table: NodeId,
+        name: &str,
         key: &str,
         example: &str,
     ) -> Option<(NodeId, T)> {
         if matches!(field, Field::Missing) {
-            let what = self.name_of(table);
-            self.wrong(
-                table,
-                format!("{what} has no `{key}`"),
-                format!("add it, for example: {example}"),
-            );
+            self.missing(table, name, key, example);
         }
         field.good()
     }
 
-    /// What a table is called in messages.
-    pub(crate) fn name_of(&self, table: NodeId) -> String {
-        for key in ["id", "kind"] {
-            if let Some(entry) = self.tree.entry(table, key)
-                && let Some(text) = self.tree.text(entry.node)
-            {
-                return match key {
-                    "id" => format!("the feature {}", quoted(text)),
-                    _ => format!("this {} of kind {}", "table", quoted(text)),
-                };
-            }
+    /// Reports that a key is missing, unless it is there but misspelt (which closing the table reports).
+    pub(crate) fn missing(&self, table: NodeId, name: &str, key: &str, example: &str) {
+        let known = self.known(table);
+        let misspelt = self.tree.entries(table).iter().any(|entry| {
+            let word = entry.key.as_str();
+            !known.contains(&word) && suggest::nearest(word, &known) == Some(key)
+        });
+        if !misspelt {
+            self.wrong(
+                table,
+                format!("{name} has no `{key}`"),
+                format!("add it, for example: {example}"),
+            );
         }
-        "this table".to_owned()
     }
 
     /// The entries of a table that no struct asked for.
@@ -212,31 +253,19 @@ impl<'t> Reader<'t> {
     }
 
     pub(crate) fn unknown_key(&self, entry: &Entry, known: &[&str], what: &str) {
-        let remedy = if self.defects.borrow().is_full() {
-            String::new()
-        } else {
-            suggest::key(&entry.key, known)
-        };
-        self.report(Defect::new(
-            entry.key_span,
-            format!("unknown key {} in {what}", suggest::code(&entry.key)),
-            remedy,
-        ));
+        let remedy = self.hint(|| suggest::key(&entry.key, known));
+        let message = format!("unknown key {} in {what}", suggest::code(&entry.key));
+        let path = self.hint(|| self.path(entry.node));
+        self.report(Defect::new(entry.key_span, message, remedy).with_path(path));
     }
 }
 
 /// Why a value could not be read.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    span: Option<Span>,
+    node: Option<NodeId>,
     message: String,
     remedy: String,
-}
-
-impl Failure {
-    fn into_defect(self, fallback: Span) -> Defect {
-        Defect::new(self.span.unwrap_or(fallback), self.message, self.remedy)
-    }
 }
 
 impl fmt::Display for Failure {
@@ -250,7 +279,7 @@ impl std::error::Error for Failure {}
 impl de::Error for Failure {
     fn custom<T: fmt::Display>(message: T) -> Self {
         Self {
-            span: None,
+            node: None,
             message: message.to_string(),
             remedy: "see the reference of the model file".to_owned(),
         }
@@ -270,7 +299,7 @@ impl<'t> NodeDeserializer<'_, 't> {
 
     fn failure(&self, message: String, remedy: impl Into<String>) -> Failure {
         Failure {
-            span: Some(self.reader.tree.span(self.node)),
+            node: Some(self.node),
             message,
             remedy: remedy.into(),
         }
@@ -336,7 +365,8 @@ impl<'t> NodeDeserializer<'_, 't> {
     }
 }
 
-fn number_remedy(text: &str) -> String {
+/// What to do about a text where a number is wanted.
+pub(crate) fn number_remedy(text: &str) -> String {
     let digits: String = text
         .trim()
         .chars()
@@ -509,7 +539,7 @@ impl<'t> SeqAccess<'t> for FieldAccess<'_, 't> {
         match seed.deserialize(self.deserializer) {
             Ok(value) => Ok(Some(value)),
             Err(failure) => {
-                reader.report(failure.into_defect(reader.tree.span(node)));
+                reader.failed(failure, node);
                 Ok(None)
             }
         }

@@ -187,6 +187,10 @@ pub enum SectionOrigin {
 
 /// The way that a feature takes, in plan.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a model has one for each feature, not for each instance"
+)]
 pub enum TrajectorySpec {
     /// A straight line between two points.
     Line {

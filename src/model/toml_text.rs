@@ -6,6 +6,9 @@ use toml::de::{DeTable, DeValue};
 use super::defects::{Defect, Span};
 use super::tree::{Entry, MAX_DEPTH, NodeId, Parsed, Tree, Value, too_deep};
 
+/// A text with more syntax errors is no model file; what follows them is noise.
+const MOST_ERRORS: usize = 20;
+
 /// Adds the TOML document `source`, which is the text number `text`, to the tree.
 pub(crate) fn parse(tree: &mut Tree, text: usize, source: &str) -> Parsed {
     let (document, errors) = DeTable::parse_recoverable(source);
@@ -13,7 +16,7 @@ pub(crate) fn parse(tree: &mut Tree, text: usize, source: &str) -> Parsed {
     let mut reader = Reader {
         tree,
         text,
-        defects: errors
+        defects: worth_telling(&errors)
             .iter()
             .map(|error| syntax_defect(text, source, error))
             .collect(),
@@ -23,6 +26,17 @@ pub(crate) fn parse(tree: &mut Tree, text: usize, source: &str) -> Parsed {
         root,
         defects: reader.defects,
     }
+}
+
+/// The errors up to the first that leaves a bracket open: from there on the parser takes keys for elements.
+fn worth_telling(errors: &[toml::de::Error]) -> &[toml::de::Error] {
+    let leaves_open = |error: &toml::de::Error| {
+        ["array", "inline table", "string"]
+            .iter()
+            .any(|what| error.message().contains(what))
+    };
+    let last = errors.iter().position(leaves_open);
+    &errors[..last.map_or(errors.len(), |last| last + 1).min(MOST_ERRORS)]
 }
 
 struct Reader<'t> {
@@ -105,6 +119,8 @@ fn remedy_for(message: &str, line_before: &str) -> &'static str {
         "give every key once in its table; repeat [[feature]] (double brackets) for the next feature"
     } else if message.contains("string values must be quoted") {
         "put text in double quotes: key = \"text\""
+    } else if message.contains("array") {
+        "separate the entries of a list with commas and close it with ]; perhaps the ] is missing on a line above"
     } else if message.contains("recursion limit") {
         "values are nested too deeply; check for missing closing brackets"
     } else if line_before.contains('"') && message.contains("newline") {

@@ -1,7 +1,10 @@
 //! The list of features: ids, parents, levels, counts; what a feature is goes by its kind.
 
+use std::collections::BTreeMap;
+
 use super::Checker;
 use super::rock::{FaciesList, is_id};
+use crate::model::defects::Defect;
 use crate::model::file::FeatureFile;
 use crate::model::read::{Any, Field};
 use crate::model::spec::{Domain, Feature, FeatureKind};
@@ -30,6 +33,15 @@ pub(super) struct Draft {
     file: FeatureFile,
 }
 
+/// The other features and the facies, which the rules of one feature name.
+pub(super) struct Family<'f> {
+    pub(super) drafts: &'f [Draft],
+    pub(super) index: &'f BTreeMap<String, usize>,
+    /// Which of the drafts is the feature itself.
+    pub(super) own: usize,
+    pub(super) facies: &'f FaciesList,
+}
+
 impl Checker<'_> {
     pub(super) fn features(
         &mut self,
@@ -51,18 +63,35 @@ impl Checker<'_> {
             return None;
         };
         let before = self.reader.found();
+        if nodes.len() as u64 > MOST_OF_ONE {
+            self.reader.wrong(
+                list,
+                format!(
+                    "the model has {} features, more than {MOST_OF_ONE}",
+                    nodes.len()
+                ),
+                "for several alike write one feature with count = …",
+            );
+            return None;
+        }
         let drafts: Vec<Draft> = nodes.iter().filter_map(|&node| self.draft(node)).collect();
-        self.check_ids(&drafts);
-        let parents = self.parents(&drafts);
-        let levels = self.levels(&drafts, &parents);
-        self.check_totals(&drafts, &parents);
+        let index = first_of_each_id(&drafts);
+        self.check_ids(&drafts, &index);
+        let parents = self.parents(&drafts, &index);
+        let lineages = self.lineages(&drafts, &parents);
         self.note_disabled_parents(&drafts, &parents);
         let mut features = Vec::new();
         for (i, draft) in drafts.iter().enumerate() {
-            let feature = self.feature(draft, &drafts, i, domain, facies);
+            let family = Family {
+                drafts: &drafts,
+                index: &index,
+                own: i,
+                facies,
+            };
+            let feature = self.feature(draft, &family, domain);
             features.extend(feature.map(|feature| Feature {
                 parent: parents[i],
-                level: levels[i],
+                level: lineages[i].level,
                 ..feature
             }));
         }
@@ -195,65 +224,69 @@ impl Checker<'_> {
         }
     }
 
-    fn check_ids(&self, drafts: &[Draft]) {
-        let mut seen: std::collections::BTreeMap<&str, NodeId> = std::collections::BTreeMap::new();
-        for draft in drafts {
+    fn check_ids(&self, drafts: &[Draft], index: &BTreeMap<String, usize>) {
+        for (i, draft) in drafts.iter().enumerate() {
             let Some((at, id)) = &draft.id else { continue };
-            if let Some(first) = seen.get(id.as_str()) {
+            let first = index.get(id).and_then(|&first| drafts[first].id.as_ref());
+            if index.get(id) != Some(&i)
+                && let Some((first, _)) = first
+            {
                 let tree = self.reader.tree;
                 self.reader.report(
-                    crate::model::defects::Defect::new(
+                    Defect::new(
                         tree.span(*at),
                         format!("two features have the id {}", quoted(id)),
                         "give every feature an id of its own; for several alike write count = …",
                     )
-                    .with_related(tree.span(*first), "the first one"),
+                    .with_related(tree.span(*first), "the first one")
+                    .with_path(self.reader.path(*at)),
                 );
-            } else {
-                seen.insert(id, *at);
             }
         }
+        self.check_instance_names(drafts, index);
+    }
+
+    /// `channel-3` may not be a feature of its own where `channel` has a count of 3 or more.
+    fn check_instance_names(&self, drafts: &[Draft], index: &BTreeMap<String, usize>) {
         for draft in drafts {
-            let Some((_, id)) = &draft.id else { continue };
-            let count = draft.count.map_or(1, |(_, count)| count);
-            for other in drafts {
-                if let Some((at, name)) = &other.id
-                    && let Some(number) = name
-                        .strip_prefix(id.as_str())
-                        .and_then(|rest| rest.strip_prefix('-'))
-                    && !number.starts_with('0')
-                    && number.parse::<u64>().is_ok_and(|n| n <= count && count > 1)
-                {
-                    self.reader.wrong(
-                        *at,
-                        format!(
-                            "the id {} is also the name of an instance of feature {}",
-                            quoted(name),
-                            quoted(id)
-                        ),
-                        "choose an id that does not end in a number of that feature's count",
-                    );
-                }
+            let Some((at, name)) = &draft.id else {
+                continue;
+            };
+            let Some((prefix, number)) = name.rsplit_once('-') else {
+                continue;
+            };
+            let Some(&other) = index.get(prefix) else {
+                continue;
+            };
+            let count = drafts[other].count.map_or(1, |(_, count)| count);
+            let clash = !number.starts_with(['0', '+'])
+                && number.parse::<u64>().is_ok_and(|n| n <= count && count > 1);
+            if clash {
+                self.reader.wrong(
+                    *at,
+                    format!(
+                        "the id {} is also the name of an instance of feature {}",
+                        quoted(name),
+                        quoted(prefix)
+                    ),
+                    "choose an id that does not end in a number of that feature's count",
+                );
             }
         }
     }
 
     /// The index of each feature's parent; none where it has none, or a wrong one (which is a defect).
-    fn parents(&self, drafts: &[Draft]) -> Vec<Option<usize>> {
-        let index = |id: &str| {
-            drafts
-                .iter()
-                .position(|draft| draft.id.as_ref().is_some_and(|(_, known)| known == id))
-        };
+    fn parents(&self, drafts: &[Draft], index: &BTreeMap<String, usize>) -> Vec<Option<usize>> {
         let mut parents: Vec<Option<usize>> = Vec::new();
         for draft in drafts {
             parents.push(draft.parent.as_ref().and_then(|(at, parent)| {
-                let found = index(parent);
+                let found = index.get(parent).copied();
                 if found.is_none() {
-                    let remedy = if RESERVED.contains(&parent.as_str()) {
+                    let remedy: String = if RESERVED.contains(&parent.as_str()) {
                         "leave `parent` out: a feature without one lies in the domain".to_owned()
                     } else {
-                        suggest::name(parent, &ids(drafts), "features")
+                        self.reader
+                            .hint(|| suggest::name(parent, &ids(drafts), "features"))
                     };
                     self.reader.wrong(
                         *at,
@@ -312,52 +345,15 @@ impl Checker<'_> {
         }
     }
 
-    fn levels(&mut self, drafts: &[Draft], parents: &[Option<usize>]) -> Vec<u32> {
-        let mut levels: Vec<u32> = vec![0; drafts.len()];
-        for start in 0..drafts.len() {
-            // Up to the first feature whose level is known, then down again.
-            let mut way = vec![start];
-            while let Some(&i) = way.last()
-                && levels[i] == 0
-                && let Some(parent) = parents[i]
-            {
-                way.push(parent);
-            }
-            for i in way.into_iter().rev() {
-                if levels[i] == 0 {
-                    let above = parents[i].map_or(0, |parent| levels[parent]);
-                    levels[i] = drafts[i].level.map_or(above + 1, |(_, level)| level);
-                }
-            }
-        }
-        for (i, draft) in drafts.iter().enumerate() {
-            if let (Some((at, level)), Some(parent)) = (draft.level, parents[i])
-                && level <= levels[parent]
-            {
-                let above = levels[parent];
-                self.note(
-                    at,
-                    format!(
-                        "{} is of level {level}, although it lies in a feature of level {above}",
-                        draft.name
-                    ),
-                );
-            }
-        }
-        levels
-    }
-
-    fn check_totals(&self, drafts: &[Draft], parents: &[Option<usize>]) {
+    /// The level and the number of instances of each feature; those of a child follow from its parent's.
+    fn lineages(&mut self, drafts: &[Draft], parents: &[Option<usize>]) -> Vec<Lineage> {
+        let mut known: Vec<Option<Lineage>> = vec![None; drafts.len()];
+        let lineages: Vec<Lineage> = (0..drafts.len())
+            .map(|i| lineage(drafts, parents, &mut known, i))
+            .collect();
         let mut total = 0_u64;
-        for draft in drafts.iter().enumerate() {
-            let (i, draft) = draft;
-            let mut instances = 1_u64;
-            let mut at = Some(i);
-            while let Some(j) = at {
-                let count = drafts[j].count.map_or(1, |(_, count)| count);
-                instances = instances.saturating_mul(count);
-                at = parents[j];
-            }
+        for (i, draft) in drafts.iter().enumerate() {
+            let Lineage { level, instances } = lineages[i];
             let before = total;
             total = total.saturating_add(instances);
             if before <= MOST_OF_ALL && total > MOST_OF_ALL {
@@ -371,7 +367,31 @@ impl Checker<'_> {
                     "lower the counts (those of a child are multiplied by its parent's)",
                 );
             }
+            match (draft.level, parents[i]) {
+                (Some((at, _)), Some(parent)) if level <= lineages[parent].level => {
+                    let above = lineages[parent].level;
+                    self.note(
+                        at,
+                        format!(
+                            "{} is of level {level}, although it lies in a feature of level {above}",
+                            draft.name
+                        ),
+                    );
+                }
+                (None, _) if level > DEEPEST_LEVEL => {
+                    self.reader.wrong(
+                        draft.node,
+                        format!(
+                            "{} is of level {level}, deeper than {DEEPEST_LEVEL}",
+                            draft.name
+                        ),
+                        "shorten the chain of parents",
+                    );
+                }
+                _ => {}
+            }
         }
+        lineages
     }
 
     fn note_disabled_parents(&mut self, drafts: &[Draft], parents: &[Option<usize>]) {
@@ -395,10 +415,8 @@ impl Checker<'_> {
     fn feature(
         &mut self,
         draft: &Draft,
-        drafts: &[Draft],
-        index: usize,
+        family: &Family<'_>,
         domain: Option<&Domain>,
-        facies: &FaciesList,
     ) -> Option<Feature> {
         let kind = match draft.kind.as_deref() {
             Some("channel") => {
@@ -408,20 +426,18 @@ impl Checker<'_> {
             }
             _ => None,
         };
-        let facies_index = match &draft.file.facies {
-            Field::Good(at, name) => self.known_facies(*at, name, facies),
+        let named = match &draft.file.facies {
             Field::Missing => {
-                self.reader.wrong(
-                    draft.node,
-                    format!("{} has no `facies`", draft.name),
-                    "add it, for example: facies = \"sand\"",
-                );
+                self.reader
+                    .missing(draft.node, &draft.name, "facies", "facies = \"sand\"");
                 None
             }
             Field::Bad => None,
+            Field::Good(at, name) => Some((*at, name)),
         };
-        let removes = self.removes(draft, &draft.file.removes, drafts, index, facies);
-        let removed_by = self.removed_by(draft, &draft.file.removed_by, drafts, index, facies);
+        let facies = named.and_then(|(at, name)| self.known_facies(at, name, family.facies));
+        let removes = self.removes(draft, draft.file.removes.as_ref(), family);
+        let removed_by = self.removed_by(draft, draft.file.removed_by.as_ref(), family);
         let preserve = match &draft.file.preserve {
             Some(Field::Good(at, true)) if draft.file.removes.is_some() => {
                 self.reader.wrong(
@@ -441,13 +457,64 @@ impl Checker<'_> {
             count: usize::try_from(draft.count?.1).ok()?,
             level: 0,
             parent: None,
-            facies: facies_index?,
+            facies: facies?,
             removes: removes?,
             removed_by: removed_by?,
             preserve,
             place: self.place(draft.node),
         })
     }
+}
+
+/// What a feature has from its parents.
+#[derive(Clone, Copy)]
+struct Lineage {
+    level: u32,
+    instances: u64,
+}
+
+/// The lineage of feature `start`, from the first of its forebears whose own is known.
+fn lineage(
+    drafts: &[Draft],
+    parents: &[Option<usize>],
+    known: &mut [Option<Lineage>],
+    start: usize,
+) -> Lineage {
+    let mut way = vec![start];
+    while let Some(&i) = way.last()
+        && known[i].is_none()
+        && let Some(parent) = parents[i]
+    {
+        way.push(parent);
+    }
+    let mut above = Lineage {
+        level: 0,
+        instances: 1,
+    };
+    for i in way.into_iter().rev() {
+        above = known[i].unwrap_or_else(|| {
+            let count = drafts[i].count.map_or(1, |(_, count)| count);
+            Lineage {
+                level: drafts[i]
+                    .level
+                    .map_or(above.level.saturating_add(1), |(_, level)| level),
+                instances: above.instances.saturating_mul(count),
+            }
+        });
+        known[i] = Some(above);
+    }
+    above
+}
+
+/// Where each id stands first in the list.
+fn first_of_each_id(drafts: &[Draft]) -> BTreeMap<String, usize> {
+    let mut index = BTreeMap::new();
+    for (i, draft) in drafts.iter().enumerate() {
+        if let Some((_, id)) = &draft.id {
+            index.entry(id.clone()).or_insert(i);
+        }
+    }
+    index
 }
 
 pub(super) fn ids(drafts: &[Draft]) -> Vec<&str> {

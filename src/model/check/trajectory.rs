@@ -1,8 +1,8 @@
 //! Trajectories, by their kind.
 
-use super::Checker;
 use super::feature::Draft;
 use super::quantity::{ANY, AZIMUTH, Limits, POSITIVE, expression, quantity};
+use super::{Checker, Reported};
 use crate::model::expression::Expression;
 use crate::model::file::{LineFile, ParametricFile, PointsFile, SineGeneratedFile, TrajectoryFile};
 use crate::model::quantity::Quantity;
@@ -85,15 +85,15 @@ impl Checker<'_> {
             return None;
         }
         if by_heading {
-            let azimuth_deg = self.given(azimuth?, table, "azimuth_deg", "azimuth_deg = 45");
+            let azimuth_deg = self.given(azimuth.ok()?, table, "azimuth_deg", "azimuth_deg = 45");
             return Some(TrajectorySpec::Heading {
                 azimuth_deg: azimuth_deg?,
-                center: center?,
-                length: length?,
+                center: center.ok()?,
+                length: length.ok()?,
             });
         }
-        let from = self.given(from?, table, "from", "from = [0, 500]");
-        let to = self.given(to?, table, "to", "to = [1000, 500]");
+        let from = self.given(from.ok()?, table, "from", "from = [0, 500]");
+        let to = self.given(to.ok()?, table, "to", "to = [1000, 500]");
         let (from, to) = (from?, to?);
         if from == to && from.iter().all(|c| c.constant().is_some()) {
             self.reader.wrong(
@@ -245,9 +245,9 @@ impl Checker<'_> {
             amplitude: amplitude?,
             wavelength: wavelength?,
             azimuth_deg: azimuth_deg?,
-            center: center?,
-            phase: phase?,
-            length: length?,
+            center: center.ok()?,
+            phase: phase.ok()?,
+            length: length.ok()?,
         })
     }
 
@@ -318,11 +318,8 @@ impl Checker<'_> {
     }
 
     fn missing_key(&self, table: &Table<'_>, key: &str, example: &str) {
-        self.reader.wrong(
-            table.node,
-            format!("the trajectory of {} has no `{key}`", table.draft.name),
-            format!("add it, for example: {example}"),
-        );
+        let name = format!("the trajectory of {}", table.draft.name);
+        self.reader.missing(table.node, &name, key, example);
     }
 
     fn must(
@@ -341,17 +338,20 @@ impl Checker<'_> {
         quantity(&self.reader, node, &what, limits)
     }
 
-    /// `None` where it is wrong, `Some(None)` where it is left out.
+    /// `None` where it is left out.
     fn maybe(
         &self,
         field: Option<Field<Any>>,
         table: &Table<'_>,
         key: &str,
         limits: Limits,
-    ) -> Option<Option<Quantity>> {
+    ) -> Result<Option<Quantity>, Reported> {
         match field {
-            None => Some(None),
-            Some(field) => self.must(field, table, key, "", limits).map(Some),
+            None => Ok(None),
+            Some(field) => self
+                .must(field, table, key, "", limits)
+                .map(Some)
+                .ok_or(Reported),
         }
     }
 
@@ -367,11 +367,11 @@ impl Checker<'_> {
         field: Option<Field<Any>>,
         table: &Table<'_>,
         key: &str,
-    ) -> Option<Option<[Quantity; 2]>> {
+    ) -> Result<Option<[Quantity; 2]>, Reported> {
         let Some(field) = field else {
-            return Some(None);
+            return Ok(None);
         };
-        let (node, Any) = field.good()?;
+        let (node, Any) = field.good().ok_or(Reported)?;
         let &[x, y] = self.reader.tree.elements(node) else {
             self.reader.wrong(
                 node,
@@ -382,13 +382,16 @@ impl Checker<'_> {
                 ),
                 "write the two coordinates in [ ], in metres",
             );
-            return None;
+            return Err(Reported);
         };
         let coordinate = |node: NodeId, axis: &str| {
             let what = format!("the {axis} of the {key} of {}", table.draft.name);
             quantity(&self.reader, node, &what, ANY)
         };
         let (x, y) = (coordinate(x, "x"), coordinate(y, "y"));
-        Some(Some([x?, y?]))
+        match (x, y) {
+            (Some(x), Some(y)) => Ok(Some([x, y])),
+            _ => Err(Reported),
+        }
     }
 }
