@@ -509,3 +509,25 @@ fn overrides_are_checked_and_point_to_the_argument() {
         assert!(defects.to_string().contains(words), "{argument}: {defects}");
     }
 }
+
+proptest::proptest! {
+    #[test]
+    fn no_change_of_a_few_characters_makes_the_program_panic(
+        json in proptest::bool::ANY,
+        cuts in proptest::collection::vec((0_usize..900, 0_usize..12, "[\\[\\]{}=\",.#0-9eE a-z\\n-]{0,6}|.{0,3}"), 1..4),
+    ) {
+        let (good, format) = if json { (JSON, Format::Json) } else { (TOML, Format::Toml) };
+        let mut characters: Vec<char> = good.chars().collect();
+        for (at, length, put) in cuts {
+            let at = at % characters.len();
+            let end = (at + length).min(characters.len());
+            characters.splice(at..end, put.chars());
+        }
+        let text: String = characters.into_iter().collect();
+        if let Err(defects) = Model::check(&Source::from_text("changed", text, format)) {
+            proptest::prop_assert!(defects.count() > 0);
+            proptest::prop_assert!(!defects.render(false).is_empty());
+            proptest::prop_assert_eq!(&defects.to_json()["count"], &serde_json::json!(defects.count()));
+        }
+    }
+}

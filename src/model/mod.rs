@@ -20,6 +20,7 @@ mod source;
 mod spec;
 mod stream;
 mod suggest;
+mod template;
 mod toml_text;
 mod tree;
 
@@ -36,3 +37,4 @@ pub use spec::{
     Property, Rgb, SectionOrigin, Selector, TrajectorySpec,
 };
 pub use stream::Stream;
+pub use template::{TEMPLATES, Template};

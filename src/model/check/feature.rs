@@ -39,6 +39,7 @@ pub(super) struct Family<'f> {
     pub(super) index: &'f BTreeMap<String, usize>,
     /// Which of the drafts is the feature itself.
     pub(super) own: usize,
+    lineages: &'f [Lineage],
     pub(super) facies: &'f FaciesList,
 }
 
@@ -86,6 +87,7 @@ impl Checker<'_> {
                 drafts: &drafts,
                 index: &index,
                 own: i,
+                lineages: &lineages,
                 facies,
             };
             let feature = self.feature(draft, &family, domain);
@@ -353,7 +355,9 @@ impl Checker<'_> {
             .collect();
         let mut total = 0_u64;
         for (i, draft) in drafts.iter().enumerate() {
-            let Lineage { level, instances } = lineages[i];
+            let Lineage {
+                level, instances, ..
+            } = lineages[i];
             let before = total;
             total = total.saturating_add(instances);
             if before <= MOST_OF_ALL && total > MOST_OF_ALL {
@@ -471,6 +475,8 @@ impl Checker<'_> {
 struct Lineage {
     level: u32,
     instances: u64,
+    /// The forebear without a parent.
+    root: usize,
 }
 
 /// The lineage of feature `start`, from the first of its forebears whose own is known.
@@ -490,6 +496,7 @@ fn lineage(
     let mut above = Lineage {
         level: 0,
         instances: 1,
+        root: way.last().copied().unwrap_or(start),
     };
     for i in way.into_iter().rev() {
         above = known[i].unwrap_or_else(|| {
@@ -499,11 +506,21 @@ fn lineage(
                     .level
                     .map_or(above.level.saturating_add(1), |(_, level)| level),
                 instances: above.instances.saturating_mul(count),
+                root: above.root,
             }
         });
         known[i] = Some(above);
     }
     above
+}
+
+impl Family<'_> {
+    /// Whether all of feature `other` comes before all of the feature itself; `Equal` where that is not so simple, since
+    /// the instances of one family follow each other parent by parent.
+    pub(super) fn age_of(&self, other: usize) -> std::cmp::Ordering {
+        let [other, own] = [other, self.own].map(|i| self.lineages[i].root);
+        other.cmp(&own)
+    }
 }
 
 /// Where each id stands first in the list.

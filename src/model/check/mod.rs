@@ -115,8 +115,15 @@ impl Checker<'_> {
             domain: domain?,
             facies: facies.finished()?,
             features: features?,
-            notes: std::mem::take(&mut self.notes),
+            notes: self.sorted_notes(),
         })
+    }
+
+    /// The notes in the order of the file.
+    fn sorted_notes(&mut self) -> Vec<Note> {
+        let mut notes = std::mem::take(&mut self.notes);
+        notes.sort_by_key(|note| (note.place.line, note.place.column));
+        notes
     }
 
     fn name(&self, field: Field<String>, root: NodeId) -> Option<String> {

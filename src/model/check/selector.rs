@@ -1,5 +1,7 @@
 //! Who removes whom: `removes` and `removed_by`.
 
+use std::cmp::Ordering;
+
 use super::Checker;
 use super::feature::{Draft, Family, ids};
 use crate::model::file::PickFile;
@@ -175,16 +177,14 @@ impl Checker<'_> {
             );
             return None;
         };
-        let younger = target > family.own;
-        let backwards = if rule.key == REMOVES.key {
-            younger
+        let (without_effect, age) = if rule.key == REMOVES.key {
+            (Ordering::Greater, "younger")
         } else {
-            target < family.own
+            (Ordering::Less, "older")
         };
         if !family.drafts[target].enabled {
             self.note(node, format!("`{key}` names `{id}`, which is disabled"));
-        } else if backwards {
-            let age = if younger { "younger" } else { "older" };
+        } else if family.age_of(target) == without_effect {
             self.note(
                 node,
                 format!("`{key}` names `{id}`, which is {age}, so this has no effect"),
