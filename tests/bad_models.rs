@@ -28,6 +28,8 @@ const TOML_EDITS: &[Edit] = &[
     ("depth = 5", "width = 50\ndepth = 5", &["duplicate key", "once in its table"]),
     ("[domain]", "[domain▸", &["not valid TOML", "expected `]`"]),
     ("x = [0, 1000]\ny", "x = [0, 1000\n▸y", &["not valid TOML", "the ] is missing on a line above"]),
+    ("name = \"Test\"", "name = \"Test", &["not valid TOML", "close the text with a quote"]),
+    ("name = \"Test\"", "name = \"C:\\models\"", &["not valid TOML"]),
     // What must be there.
     ("name = \"Test\"", "▸", &["the model has no `name`", "name = \"Channel belt\""]),
     ("name = \"Test\"", "name = ▸\"\"", &["the name of the model is empty"]),

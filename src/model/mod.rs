@@ -8,8 +8,11 @@
 
 mod check;
 mod defects;
+mod deserialize;
+mod distribution;
 mod expression;
 mod file;
+mod formula;
 mod json_text;
 mod overrides;
 mod profile;
@@ -25,11 +28,11 @@ mod toml_text;
 mod tree;
 
 pub use defects::{Defect, Defects};
-pub use expression::{EvaluationError, Expression, ExpressionError, FUNCTIONS};
+pub use distribution::{Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS};
+pub use expression::{EvaluationError, Expression, ExpressionError};
+pub use formula::FUNCTIONS;
 pub use profile::{Course, Profile};
-pub use quantity::{
-    Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS, Quantity,
-};
+pub use quantity::Quantity;
 pub use schema::schema;
 pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{

@@ -2,8 +2,9 @@
 //!
 //! `s` is the fraction of the way along the trajectory, 0 at its start and 1 at its end.
 
+use super::distribution::DrawError;
 use super::expression::{EvaluationError, Expression};
-use super::quantity::{DrawError, Quantity};
+use super::quantity::Quantity;
 use super::stream::Stream;
 
 /// A quantity that may vary along the trajectory, as the model file gives it.

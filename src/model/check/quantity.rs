@@ -1,10 +1,13 @@
 //! Quantities and profiles: their shapes, their distributions, and whether what they can give is possible.
 
-use crate::model::expression::{Expression, ExpressionError, FUNCTIONS};
+use crate::model::deserialize::number_remedy;
+use crate::model::distribution::{Distribution, DistributionError};
+use crate::model::expression::{Expression, ExpressionError};
 use crate::model::file::{DistributionFile, ExpressionFile};
+use crate::model::formula::FUNCTIONS;
 use crate::model::profile::Profile;
-use crate::model::quantity::{Distribution, DistributionError, Quantity};
-use crate::model::read::{Any, Field, Reader, number_remedy};
+use crate::model::quantity::Quantity;
+use crate::model::read::{Any, Field, Reader};
 use crate::model::suggest;
 use crate::model::tree::{NodeId, Value, quoted};
 

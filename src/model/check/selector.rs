@@ -3,7 +3,8 @@
 use std::cmp::Ordering;
 
 use super::Checker;
-use super::feature::{Draft, Family, ids};
+use super::family::{Family, ids};
+use super::feature::Draft;
 use crate::model::file::PickFile;
 use crate::model::read::{Any, Field};
 use crate::model::spec::{Pick, Selector};
