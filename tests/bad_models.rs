@@ -289,6 +289,18 @@ fn all_defects_are_found_in_one_run() {
 }
 
 #[test]
+fn a_slip_in_a_kind_hides_no_other_defect() {
+    let text = TOML
+        .replacen("kind = \"channel\"", "kind = \"chanel\"", 1)
+        .replace("width = 50", "widht = 50")
+        .replace("sine-generated", "sine_generate")
+        .replace("amplitude = 50", "amplitude = -50");
+    let defects = refused("kinds.toml", &text, Format::Toml);
+    let lines: Vec<usize> = defects.iter().map(|defect| defect.place().line).collect();
+    assert_eq!(lines, [21, 24, 34, 34], "{defects}");
+}
+
+#[test]
 fn a_circle_of_parents_is_reported_once() {
     let text = TOML
         .replace("count = 3", "parent = \"second\"")

@@ -22,7 +22,7 @@ pub(super) struct Draft {
     pub(super) id: Option<(NodeId, String)>,
     pub(super) name: String,
     pub(super) enabled: bool,
-    pub(super) kind: Option<String>,
+    pub(super) kind: Option<&'static str>,
     pub(super) level: Option<(NodeId, u32)>,
     pub(super) parent: Option<(NodeId, String)>,
     pub(super) count: Option<(Option<NodeId>, u64)>,
@@ -94,7 +94,8 @@ impl Checker<'_> {
         };
         let id = self.id(&file.id, node);
         let kind = match &file.kind {
-            Field::Good(at, kind) => self.known_kind(*at, kind).then(|| kind.clone()),
+            // What was probably meant is checked too, so that one slip hides no other.
+            Field::Good(at, kind) => self.kind_meant(*at, kind),
             Field::Missing => {
                 self.reader.wrong(
                     node,
@@ -165,19 +166,26 @@ impl Checker<'_> {
         }
     }
 
-    pub(super) fn known_kind(&self, node: NodeId, kind: &str) -> bool {
-        let known = FeatureKind::NAMES.contains(&kind);
-        if !known {
+    /// The kind of that name; where there is none, a defect, and the kind whose name is nearest.
+    fn kind_meant(&self, node: NodeId, kind: &str) -> Option<&'static str> {
+        let known = FeatureKind::NAMES.into_iter().find(|known| *known == kind);
+        known.or_else(|| {
+            let nearest = suggest::nearest(kind, &FeatureKind::NAMES);
+            let remedy = match nearest {
+                Some(known) => format!("did you mean \"{known}\"?"),
+                None => format!("the kinds are: {}", suggest::list(&FeatureKind::NAMES)),
+            };
             self.reader.wrong(
                 node,
                 format!("there is no kind of feature {}", quoted(kind)),
-                match suggest::nearest(kind, &FeatureKind::NAMES) {
-                    Some(known) => format!("did you mean \"{known}\"?"),
-                    None => format!("the kinds are: {}", suggest::list(&FeatureKind::NAMES)),
-                },
+                remedy,
             );
-        }
-        known
+            nearest
+        })
+    }
+
+    pub(super) fn known_kind(&self, node: NodeId, kind: &str) -> bool {
+        self.kind_meant(node, kind) == Some(kind)
     }
 
     fn count(&self, node: NodeId, count: u64, name: &str) -> Option<(Option<NodeId>, u64)> {
@@ -218,7 +226,7 @@ impl Checker<'_> {
         family: &Family<'_>,
         domain: Option<&Domain>,
     ) -> Option<Feature> {
-        let kind = match draft.kind.as_deref() {
+        let kind = match draft.kind {
             Some("channel") => {
                 let spec = self.channel(draft, domain);
                 self.reader.close(draft.node, &draft.name);

@@ -38,22 +38,23 @@ impl Checker<'_> {
             }
             field => field.good()?,
         };
-        let spec = match kind.as_str() {
+        let known = KINDS.into_iter().find(|known| *known == kind);
+        // What was probably meant is checked too, so that one slip hides no other.
+        let meant = known.or_else(|| {
+            let nearest = suggest::nearest(&kind, &KINDS);
+            let remedy = match nearest {
+                Some(known) => format!("did you mean \"{known}\"?"),
+                None => format!("the kinds are: {}", suggest::list(&KINDS)),
+            };
+            let message = format!("there is no kind of trajectory {}", quoted(&kind));
+            self.reader.wrong(at, message, remedy);
+            nearest
+        });
+        let spec = match meant? {
             "line" => self.line(&table),
             "points" => self.points(&table),
             "sine-generated" => self.sine_generated(&table),
-            "parametric" => self.parametric(&table),
-            _ => {
-                self.reader.wrong(
-                    at,
-                    format!("there is no kind of trajectory {}", quoted(&kind)),
-                    match suggest::nearest(&kind, &KINDS) {
-                        Some(known) => format!("did you mean \"{known}\"?"),
-                        None => format!("the kinds are: {}", suggest::list(&KINDS)),
-                    },
-                );
-                return None;
-            }
+            _ => self.parametric(&table),
         };
         self.reader.close(node, &name);
         spec
