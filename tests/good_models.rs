@@ -7,7 +7,8 @@
 )]
 
 use clinothem::model::{
-    FeatureKind, Format, Model, Profile, Quantity, Selector, Source, TrajectorySpec,
+    Defects, Expression, FeatureKind, Format, Model, Parametrization, Pick, Profile, Property,
+    Quantity, Rgb, SectionOrigin, Selector, Source, TEMPLATES, TrajectorySpec,
 };
 
 fn read(path: &str) -> Model {
@@ -74,4 +75,336 @@ fn json_of_the_same_content_is_the_same_model() {
     let from_toml = read("models/channel-belt/channel-belt.toml");
     assert_eq!(from_json.domain.size(), from_toml.domain.size());
     assert_eq!(from_json.features[0].kind, from_toml.features[0].kind);
+}
+
+const GOOD: &str = include_str!("bad_models/good.toml");
+const FULL: &str = include_str!("bad_models/full.toml");
+
+fn check(text: &str, overrides: &[&str]) -> Result<Model, Defects> {
+    let mut source = Source::from_text("model.toml", text, Format::Toml);
+    for assignment in overrides {
+        source.set(*assignment);
+    }
+    Model::check(&source)
+}
+
+fn channel(model: &Model, index: usize) -> &clinothem::model::ChannelSpec {
+    let FeatureKind::Channel(channel) = &model.features[index].kind;
+    channel
+}
+
+#[test]
+fn every_key_arrives_where_it_belongs() {
+    let model = check(FULL, &[]).unwrap();
+    assert_eq!(model.origin, [431_200.0, 6_521_300.0, -2000.0]);
+    assert_eq!(model.description.as_deref(), Some("Every key once"));
+    let mud = &model.facies[0];
+    assert_eq!(
+        mud.color,
+        Rgb {
+            r: 0x99,
+            g: 0x88,
+            b: 0xff
+        }
+    );
+    assert_eq!(mud.net, Some(false));
+    assert_eq!(
+        mud.properties,
+        [
+            ("porosity".to_owned(), Property::Scalar(0.08)),
+            ("permeability".to_owned(), Property::Vector([0.1; 3])),
+            ("youngs_modulus".to_owned(), Property::Scalar(2.1e10)),
+            ("stress".to_owned(), Property::Vector([1.0, 2.0, 3.0])),
+        ]
+    );
+    let trunk = &model.features[0];
+    assert_eq!(
+        (trunk.count, trunk.level, trunk.parent, trunk.enabled),
+        (2, 1, None, true)
+    );
+    assert_eq!(trunk.removes, Selector::Everything);
+    assert_eq!(
+        trunk.removed_by,
+        Selector::Only(vec![
+            Pick::Id("branch".to_owned()),
+            Pick::Kind("channel".to_owned()),
+            Pick::Level(2),
+            Pick::Facies("sand".to_owned()),
+            Pick::Id("loose".to_owned()),
+        ])
+    );
+    let spec = channel(&model, 0);
+    let Profile::Along(width) = &spec.width else {
+        panic!()
+    };
+    assert_eq!(
+        width
+            .iter()
+            .map(|(s, q)| (*s, q.mean()))
+            .collect::<Vec<_>>(),
+        [(0.0, 40.0), (0.5, 55.0), (1.0, 40.0)]
+    );
+    assert_eq!(
+        spec.depth,
+        Profile::Expression(Expression::new("5 + sin(2 * pi * s)", "s").unwrap())
+    );
+    assert_eq!(spec.asymmetry, Profile::from(-0.2));
+    assert_eq!(spec.right_angle_deg, Some(Profile::from(100.0)));
+    assert_eq!(spec.origin, SectionOrigin::TopCentre);
+    assert_eq!(
+        (spec.angle_limit_deg, spec.tolerance_fraction),
+        (10.0, 0.005)
+    );
+    let TrajectorySpec::Points {
+        points,
+        parametrization,
+        degree,
+    } = &spec.trajectory
+    else {
+        panic!()
+    };
+    assert_eq!(
+        (points.len(), *parametrization, *degree),
+        (4, Parametrization::ChordLength, 2)
+    );
+}
+
+#[test]
+fn every_kind_of_trajectory_arrives() {
+    let model = check(FULL, &[]).unwrap();
+    let branch = &model.features[1];
+    assert_eq!(
+        (branch.parent, branch.level),
+        (Some(0), 2),
+        "one level below its parent"
+    );
+    assert_eq!(branch.removes, Selector::Only(vec![]));
+    assert_eq!(branch.removed_by, Selector::Only(vec![]));
+    let TrajectorySpec::Heading {
+        center: Some([x, y]),
+        length,
+        ..
+    } = &channel(&model, 1).trajectory
+    else {
+        panic!()
+    };
+    assert_eq!(
+        (x.constant(), y.mean(), length.clone()),
+        (Some(500.0), 500.0, Some(Quantity::from(400.0)))
+    );
+    assert!(model.features[2].preserve);
+    let TrajectorySpec::SineGenerated { phase, .. } = &channel(&model, 3).trajectory else {
+        panic!()
+    };
+    assert_eq!(*phase, Some(Quantity::from(0.25)));
+    let TrajectorySpec::Parametric { y, range, .. } = &channel(&model, 4).trajectory else {
+        panic!()
+    };
+    assert!((y.eval(0.25).unwrap() - 600.0).abs() < 1e-9);
+    assert_eq!(*range, [0.0, 2.0]);
+}
+
+#[test]
+fn what_is_left_out_has_its_default() {
+    let model = check(
+        &GOOD.replace("seed = 7\norigin = [431200.0, 6521300.0]", ""),
+        &[],
+    )
+    .unwrap();
+    assert_eq!((model.seed, model.origin), (1, [0.0; 3]));
+    let feature = &model.features[1];
+    assert_eq!(
+        (
+            feature.count,
+            feature.level,
+            feature.enabled,
+            feature.preserve
+        ),
+        (1, 1, true, false)
+    );
+    assert_eq!(
+        (&feature.removes, &feature.removed_by),
+        (&Selector::Everything, &Selector::Everything)
+    );
+    let spec = channel(&model, 1);
+    assert_eq!(spec.asymmetry, Profile::from(0.0));
+    assert_eq!((&spec.top, spec.origin), (&None, SectionOrigin::Thalweg));
+    assert_eq!(
+        (spec.angle_limit_deg, spec.tolerance_fraction),
+        (15.0, 0.01)
+    );
+}
+
+#[test]
+fn overrides_replace_values_and_later_ones_win() {
+    let model = check(
+        GOOD,
+        &[
+            "feature.channel.width=30",
+            "domain.z=[-80, 0]",
+            "seed=9",
+            "seed=18446744073709551615",
+            "domain.facies=sand",
+            "facies.sand.color=#102030",
+            "facies.sand.porosity=0.3",
+            "facies.coal.net=false",
+        ],
+    )
+    .unwrap();
+    assert_eq!(channel(&model, 0).width, Profile::from(30.0));
+    assert_eq!(
+        (model.domain.z, model.seed, model.domain.facies),
+        ([-80.0, 0.0], u64::MAX, 1)
+    );
+    assert_eq!(
+        model.facies[1].color,
+        Rgb {
+            r: 0x10,
+            g: 0x20,
+            b: 0x30
+        }
+    );
+    assert_eq!(
+        model.facies[1].properties,
+        [("porosity".to_owned(), Property::Scalar(0.3))]
+    );
+    assert_eq!(model.facies[2].name, "coal");
+}
+
+#[test]
+fn what_has_no_effect_is_noted_where_it_stands() {
+    let notes = |text: &str| -> Vec<(usize, String)> {
+        let model = check(text, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+        model
+            .notes
+            .into_iter()
+            .map(|note| (note.place.line, note.message))
+            .collect()
+    };
+    assert_eq!(notes(GOOD), []);
+    let disabled = GOOD
+        .replace("count = 3", "enabled = false")
+        .replace("depth = 4", "depth = 4\nremoves = [\"channel\"]");
+    assert_eq!(
+        notes(&disabled),
+        [(
+            34,
+            "`removes` names `channel`, which is disabled".to_owned()
+        )]
+    );
+    let younger = GOOD.replace("count = 3", "removes = [\"second\"]");
+    assert_eq!(
+        notes(&younger),
+        [(
+            22,
+            "`removes` names `second`, which is younger, so this has no effect".to_owned()
+        )]
+    );
+    let older = GOOD.replace("depth = 4", "depth = 4\nremoved_by = [\"channel\"]");
+    assert_eq!(
+        notes(&older),
+        [(
+            34,
+            "`removed_by` names `channel`, which is older, so this has no effect".to_owned()
+        )]
+    );
+    let orphan = GOOD
+        .replace("count = 3", "enabled = false")
+        .replace("depth = 4", "depth = 4\nparent = \"channel\"");
+    assert!(
+        notes(&orphan)[0]
+            .1
+            .contains("is left out with its parent, feature \"channel\"")
+    );
+    let unused = format!("{GOOD}[facies.coal]\n");
+    assert_eq!(
+        notes(&unused),
+        [(35, "nothing is of the facies `coal`".to_owned())]
+    );
+    let low = GOOD.replace("count = 3", "top = -70");
+    assert!(notes(&low)[0].1.contains("lies below the domain"));
+}
+
+#[test]
+fn a_child_of_an_older_feature_is_not_called_younger_for_standing_later_in_the_file() {
+    // Children are made with their parent, so `second` is made before `third`, which stands above it.
+    let third = "[[feature]]\nid = \"third\"\nkind = \"channel\"\nfacies = \"sand\"\nwidth = 9\ndepth = 2\ntrajectory = { kind = \"line\", azimuth_deg = 4 }\nremoves = [\"second\"]\n";
+    let text = GOOD
+        .replace(
+            "[[feature]]\nid = \"second\"",
+            &format!("{third}\n[[feature]]\nid = \"second\""),
+        )
+        .replace("depth = 4", "depth = 4\nparent = \"channel\"");
+    assert_eq!(check(&text, &[]).unwrap().notes, []);
+}
+
+#[test]
+fn every_template_is_a_good_model() {
+    for template in TEMPLATES {
+        check(template.text, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+    }
+}
+
+#[test]
+fn the_examples_of_the_reference_are_good() {
+    let reference = include_str!("../docs/model-file.md");
+    let blocks: Vec<&str> = reference
+        .split("```toml\n")
+        .skip(1)
+        .map(|rest| rest.split("```").next().unwrap())
+        .collect();
+    let whole = blocks
+        .iter()
+        .find(|block| block.starts_with("name"))
+        .unwrap();
+    check(whole, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+    // Lines that stand for themselves are put into the whole example, one at a time.
+    let mut lines = 0;
+    for block in &blocks {
+        for line in block.lines() {
+            let key = line.split(" =").next().unwrap();
+            let text = match key {
+                "removes" | "removed_by" => whole.replace("count = 5", line),
+                "width" => whole.replace("width = 80", line),
+                "trajectory" if !whole.contains(line) => whole.replace(
+                    "trajectory = { kind = \"line\", from = [0, 300], to = [1000, 600] }",
+                    line,
+                ),
+                _ => continue,
+            };
+            check(&text, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+            lines += 1;
+        }
+    }
+    assert!(lines >= 14, "{lines}");
+}
+
+#[test]
+fn the_reference_names_every_key_of_the_schema() {
+    fn keys(value: &serde_json::Value, found: &mut Vec<String>) {
+        match value {
+            serde_json::Value::Object(object) => {
+                if let Some(serde_json::Value::Object(properties)) = object.get("properties") {
+                    found.extend(properties.keys().cloned());
+                }
+                object.values().for_each(|inner| keys(inner, found));
+            }
+            serde_json::Value::Array(values) => values.iter().for_each(|inner| keys(inner, found)),
+            _ => {}
+        }
+    }
+    let reference = include_str!("../docs/model-file.md");
+    let mut found = Vec::new();
+    keys(&clinothem::model::schema(), &mut found);
+    assert!(found.len() > 40);
+    for key in found {
+        let named = [
+            format!("`{key}`"),
+            format!("{key} ="),
+            format!("[[{key}]]"),
+            format!("[{key}]"),
+            format!("[{key}.NAME]"),
+        ];
+        assert!(named.iter().any(|form| reference.contains(form)), "{key}");
+    }
 }

@@ -12,6 +12,7 @@
 
 namespace clinothem::occt {
 
+struct BoxData;
 struct FaceIntegralData;
 struct FaceSampleData;
 struct SolidsHandle;

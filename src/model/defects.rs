@@ -31,21 +31,70 @@ impl Span {
 /// A text with a name: the model file, or an override.
 #[derive(Debug)]
 pub(crate) struct Text {
-    pub(crate) name: String,
-    pub(crate) text: String,
+    name: String,
+    content: String,
+    /// Where each line starts, in bytes.
+    lines: Vec<usize>,
+    /// How many characters come before every [`STRIDE`]th byte: a file may be one line of megabytes.
+    characters: Vec<usize>,
 }
 
+/// Bytes between the entries of [`Text::characters`].
+const STRIDE: usize = 4096;
+
 impl Text {
-    /// Where the byte `offset` stands.
-    pub(crate) fn place(&self, offset: usize) -> Place {
-        let before = &self.text[..floor_boundary(&self.text, offset)];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Place {
-            file: self.name.clone(),
-            line: before.bytes().filter(|&b| b == b'\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
+    pub(crate) fn new(name: String, content: String) -> Self {
+        let line_ends = content
+            .bytes()
+            .enumerate()
+            .filter(|&(_, byte)| byte == b'\n');
+        let lines = std::iter::once(0)
+            .chain(line_ends.map(|(at, _)| at + 1))
+            .collect();
+        let mut before = 0;
+        let characters = content
+            .as_bytes()
+            .chunks(STRIDE)
+            .map(|chunk| {
+                let here = before;
+                before += characters_in(chunk);
+                here
+            })
+            .collect();
+        Self {
+            name,
+            content,
+            lines,
+            characters,
         }
     }
+
+    /// Where the byte `offset` stands.
+    pub(crate) fn place(&self, offset: usize) -> Place {
+        let offset = floor_boundary(&self.content, offset);
+        let line = self.lines.partition_point(|&start| start <= offset);
+        let start = self.lines[line - 1];
+        Place {
+            file: self.name.clone(),
+            line,
+            column: self.characters_before(offset) - self.characters_before(start) + 1,
+        }
+    }
+
+    fn characters_before(&self, offset: usize) -> usize {
+        let stride = offset / STRIDE;
+        let known = self.characters.get(stride);
+        match known {
+            Some(known) => known + characters_in(&self.content.as_bytes()[stride * STRIDE..offset]),
+            // The end of a text of exactly some strides, or an empty one.
+            None => characters_in(self.content.as_bytes()),
+        }
+    }
+}
+
+/// Characters that start in these bytes of UTF-8.
+fn characters_in(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count()
 }
 
 fn floor_boundary(text: &str, offset: usize) -> usize {
@@ -63,6 +112,7 @@ pub struct Defect {
     message: String,
     remedy: String,
     related: Option<(Span, String)>,
+    path: String,
     place: Place,
 }
 
@@ -73,8 +123,14 @@ impl Defect {
             message: message.into(),
             remedy: remedy.into(),
             related: None,
+            path: String::new(),
             place: Place::default(),
         }
+    }
+
+    pub(crate) fn with_path(mut self, path: String) -> Self {
+        self.path = path;
+        self
     }
 
     pub(crate) fn with_related(mut self, span: Span, label: impl Into<String>) -> Self {
@@ -90,6 +146,11 @@ impl Defect {
     /// What to do about it.
     pub fn remedy(&self) -> &str {
         &self.remedy
+    }
+
+    /// The keys that lead to it, as an override would write them; empty where it has none.
+    pub fn path(&self) -> &str {
+        &self.path
     }
 
     /// Where it stands.
@@ -111,6 +172,15 @@ impl std::error::Error for Defects {}
 impl fmt::Display for Defects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.render(false))
+    }
+}
+
+impl<'a> IntoIterator for &'a Defects {
+    type Item = &'a Defect;
+    type IntoIter = std::slice::Iter<'a, Defect>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
     }
 }
 
@@ -154,10 +224,14 @@ impl Defects {
         }
         let count = self.count();
         let file = self.texts.first().map_or("", |text| text.name.as_str());
-        let plural = if count == 1 { "defect" } else { "defects" };
-        out.push_str(&format!("{file}: {count} {plural}"));
+        out.push_str(file);
+        out.push_str(": ");
+        out.push_str(&count.to_string());
+        out.push_str(if count == 1 { " defect" } else { " defects" });
         if self.unlisted > 0 {
-            out.push_str(&format!(", the first {} listed", self.listed.len()));
+            out.push_str(", the first ");
+            out.push_str(&self.listed.len().to_string());
+            out.push_str(" listed");
         }
         out.push('\n');
         out
@@ -181,7 +255,7 @@ impl Defects {
         label: Option<&'a str>,
     ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
         let (name, excerpt) = match self.texts.get(span.text) {
-            Some(text) => (text.name.as_str(), Excerpt::of(&text.text, span)),
+            Some(text) => (text.name.as_str(), Excerpt::of(text, span)),
             None => ("", Excerpt::default()),
         };
         Snippet::source(excerpt.text)
@@ -190,7 +264,8 @@ impl Defects {
             .annotation(kind.span(excerpt.start..excerpt.end).label(label))
     }
 
-    /// The same for machines: an object with a list of defects, each with file, line, column, message, remedy and the line itself.
+    /// The same for machines: an object with a list of defects, each with file, line, column, path,
+    /// message, remedy and the line itself.
     pub fn to_json(&self) -> serde_json::Value {
         let list: Vec<_> = self
             .listed
@@ -198,13 +273,14 @@ impl Defects {
             .map(|defect| {
                 let text = &self.texts.get(defect.span.text);
                 let end = text.map(|t| t.place(defect.span.end)).unwrap_or_default();
-                let snippet = text.map(|t| Excerpt::of(&t.text, defect.span).text);
+                let snippet = text.map(|t| Excerpt::of(t, defect.span).text);
                 json!({
                     "file": defect.place.file,
                     "line": defect.place.line,
                     "column": defect.place.column,
                     "end_line": end.line,
                     "end_column": end.column,
+                    "path": defect.path,
                     "message": defect.message,
                     "remedy": defect.remedy,
                     "snippet": snippet.unwrap_or_default(),
@@ -227,7 +303,8 @@ struct Excerpt<'a> {
 }
 
 impl<'a> Excerpt<'a> {
-    fn of(text: &'a str, span: Span) -> Self {
+    fn of(source: &'a Text, span: Span) -> Self {
+        let text = source.content.as_str();
         let start = floor_boundary(text, span.start);
         let mut end = floor_boundary(text, span.end.max(span.start));
         let line_start = text[..start].rfind('\n').map_or(0, |i| i + 1);
@@ -243,7 +320,7 @@ impl<'a> Excerpt<'a> {
         let shown = text[from..to].trim_end_matches('\r');
         Self {
             text: shown,
-            line: text[..start].bytes().filter(|&b| b == b'\n').count() + 1,
+            line: source.lines.partition_point(|&line| line <= start),
             start: (start - from).min(shown.len()),
             end: (end.max(start) - from).min(shown.len()),
         }

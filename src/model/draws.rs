@@ -2,16 +2,16 @@
 
 use glam::DVec2;
 
+use super::distribution::Distribution;
 use super::expression::Expression;
 use super::profile::Profile as ProfileSpec;
-use super::quantity::{Distribution, Quantity};
+use super::quantity::Quantity;
 use super::spec::{self, ChannelSpec, Domain, SectionOrigin, TrajectorySpec};
 use super::stream::Stream;
 use crate::features::body::Trough;
 use crate::features::channel::{ChannelDesign, Origin};
 use crate::features::profile::Profile;
 use crate::features::trajectory::{SineGenerated, Trajectory, TrajectoryError, azimuth_vector};
-use crate::nurbs::interpolate::Parametrization;
 
 /// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
 /// two widths are added. Ends well outside leave the domain's walls to be crossed cleanly.
@@ -249,11 +249,7 @@ fn trajectory(
             degree,
         } => {
             let points: Vec<DVec2> = points.iter().map(|p| DVec2::from_array(*p)).collect();
-            let parametrization = match parametrization {
-                spec::Parametrization::ChordLength => Parametrization::ChordLength,
-                spec::Parametrization::Centripetal => Parametrization::Centripetal,
-            };
-            Trajectory::through(&points, *degree, parametrization)
+            Trajectory::through(&points, *degree, *parametrization)
         }
         TrajectorySpec::SineGenerated {
             amplitude,

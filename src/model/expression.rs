@@ -1,29 +1,24 @@
 //! Formulas of one variable, as `20 + 10 * sin(2 * pi * s)`.
 //!
-//! Parsed by `exmex`; a formula knows one variable (`s`, the fraction of the way along a trajectory, or `t`, the parameter
-//! of a parametric trajectory) and the constant `pi`. Whether its values are finite is known only where it is evaluated.
+//! A formula knows one variable (`s`, the fraction of the way along a trajectory, or `t`, the parameter of a parametric
+//! trajectory), the constant `pi`, and some [`FUNCTIONS`](super::FUNCTIONS). It is parsed once; whether its values are finite
+//! is known only where it is evaluated.
 
-use exmex::{Express, FlatEx};
+use std::sync::Arc;
+
 use thiserror::Error;
 
-/// Longer formulas are refused: nobody writes them by hand, and parsing is not linear in their length.
+use super::formula::{self, MAX_NESTING, Step};
+
+/// Longer formulas are refused: nobody writes them by hand.
 const MAX_LENGTH: usize = 1000;
-/// Deeper parentheses are refused.
-const MAX_NESTING: usize = 32;
-
-/// The functions that a formula may call, for messages and docs.
-pub const FUNCTIONS: [&str; 25] = [
-    "abs", "acos", "asin", "atan", "atan2", "cbrt", "ceil", "cos", "cosh", "exp", "floor", "fract",
-    "ln", "log10", "log2", "max", "min", "round", "signum", "sin", "sinh", "sqrt", "tan", "tanh",
-    "trunc",
-];
-
 /// A formula of one variable.
 #[derive(Clone, Debug)]
 pub struct Expression {
     text: String,
     variable: &'static str,
-    parsed: FlatEx<f64>,
+    /// Shared, since a formula is copied into every instance.
+    program: Arc<[Step]>,
 }
 
 impl PartialEq for Expression {
@@ -45,10 +40,10 @@ pub enum ExpressionError {
         length: usize,
     },
     /// Too deep to be meant.
-    #[error("the formula nests parentheses more than {MAX_NESTING} deep")]
+    #[error("the formula nests more than {MAX_NESTING} deep")]
     TooDeep,
     /// A character that no formula has.
-    #[error("the formula contains {character:?}, which has no meaning there")]
+    #[error("the formula contains {character:?}, which has no meaning in a formula")]
     Character {
         /// The offending character.
         character: char,
@@ -63,11 +58,21 @@ pub enum ExpressionError {
         /// The variable that the formula may use.
         variable: &'static str,
     },
-    /// The text is not a formula.
-    #[error("the formula cannot be read: {reason}")]
+    /// A number that cannot be read.
+    #[error("the formula contains {text}, which is not a number")]
+    Number {
+        /// What stands there.
+        text: String,
+    },
+    /// Something else was needed.
+    #[error("the formula needs {expected} at character {position}, but has {found}")]
     Syntax {
-        /// The parser's words.
-        reason: String,
+        /// What was needed.
+        expected: String,
+        /// What stands there.
+        found: String,
+        /// Where, in characters from 1.
+        position: usize,
     },
 }
 
@@ -86,14 +91,6 @@ pub enum EvaluationError {
         /// What the formula gives there.
         value: f64,
     },
-    /// The evaluator failed.
-    #[error("the formula `{formula}` cannot be evaluated: {reason}")]
-    Failed {
-        /// The formula.
-        formula: String,
-        /// The evaluator's words.
-        reason: String,
-    },
 }
 
 impl Expression {
@@ -106,30 +103,10 @@ impl Expression {
         if length > MAX_LENGTH {
             return Err(ExpressionError::TooLong { length });
         }
-        let meaningless = |c: &char| !(c.is_ascii_alphanumeric() || " \t_.,+-*/^()".contains(*c));
-        if let Some(character) = text.chars().find(meaningless) {
-            return Err(ExpressionError::Character { character });
-        }
-        if nesting(text) > MAX_NESTING {
-            return Err(ExpressionError::TooDeep);
-        }
-        let parsed = exmex::parse::<f64>(text).map_err(|error| ExpressionError::Syntax {
-            reason: error.to_string(),
-        })?;
-        if let Some(name) = parsed
-            .var_names()
-            .iter()
-            .find(|name| *name != variable && *name != "pi")
-        {
-            return Err(ExpressionError::Unknown {
-                name: name.clone(),
-                variable,
-            });
-        }
         Ok(Self {
             text: text.to_owned(),
             variable,
-            parsed,
+            program: formula::parse(text, variable)?.into(),
         })
     }
 
@@ -145,25 +122,7 @@ impl Expression {
 
     /// Its value where the variable is `at`; finite, or an error.
     pub fn eval(&self, at: f64) -> Result<f64, EvaluationError> {
-        let values: Vec<f64> = self
-            .parsed
-            .var_names()
-            .iter()
-            .map(|name| {
-                if name == "pi" {
-                    std::f64::consts::PI
-                } else {
-                    at
-                }
-            })
-            .collect();
-        let value = self
-            .parsed
-            .eval(&values)
-            .map_err(|error| EvaluationError::Failed {
-                formula: self.text.clone(),
-                reason: error.to_string(),
-            })?;
+        let value = formula::run(&self.program, at);
         if value.is_finite() {
             Ok(value)
         } else {
@@ -177,15 +136,111 @@ impl Expression {
     }
 }
 
-fn nesting(text: &str) -> usize {
-    let (mut depth, mut deepest) = (0_usize, 0);
-    for c in text.chars() {
-        match c {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        deepest = deepest.max(depth);
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{EvaluationError, Expression, ExpressionError};
+    use crate::model::FUNCTIONS;
+
+    fn at(text: &str, s: f64) -> f64 {
+        Expression::new(text, "s").unwrap().eval(s).unwrap()
     }
-    deepest
+
+    #[test]
+    fn formulas_have_the_values_of_their_closed_forms() {
+        assert_eq!(at("30 - 10 * s", 0.25), 27.5);
+        assert_eq!(at("2 + 3 * 4 ^ 2 / 8", 0.0), 8.0);
+        assert_eq!(at("-s ^ 2", 3.0), -9.0);
+        assert_eq!(at("2 ^ 3 ^ 2", 0.0), 512.0);
+        assert_eq!(at("s ^ -1", 4.0), 0.25);
+        assert_eq!(at("8 / 4 / 2 - 1 - 1", 0.0), -1.0);
+        assert_eq!(at("2 * -s + (1 - -s)", 3.0), -2.0);
+        assert_eq!(at("max(0, min(1, s))", 3.0), 1.0);
+        assert_eq!(at("atan2(1, 0)", 0.0), std::f64::consts::FRAC_PI_2);
+        assert_eq!(at("1e1 + 1.5E-1", 0.0), 10.15);
+        assert!((at("20 + 10 * sin(2 * pi * s)", 0.25) - 30.0).abs() < 1e-12);
+        assert_eq!(at("max(s, 0.5) - min(s, 0.5)", 0.75), 0.25);
+        assert!((at("sqrt(2) * cos(pi / 4)", 0.0) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn every_listed_function_can_be_called() {
+        for name in FUNCTIONS {
+            let call = match name {
+                "atan2" | "max" | "min" => format!("{name}(s, 0.5)"),
+                _ => format!("{name}(s)"),
+            };
+            assert!(at(&call, 0.5).is_finite(), "{call}");
+        }
+    }
+
+    #[test]
+    fn a_formula_knows_its_variable_and_nothing_else() {
+        for (text, name) in [
+            ("t", "t"),
+            ("2 * x", "x"),
+            ("PI", "PI"),
+            ("e + 1", "e"),
+            ("sin2(s)", "sin2"),
+        ] {
+            let refused = Expression::new(text, "s").unwrap_err();
+            let expected = ExpressionError::Unknown {
+                name: name.to_owned(),
+                variable: "s",
+            };
+            assert_eq!(refused, expected);
+        }
+    }
+
+    #[test]
+    fn the_list_of_functions_is_the_table_of_functions() {
+        assert_eq!(
+            crate::model::formula::TABLE.map(|(name, _)| name),
+            FUNCTIONS
+        );
+    }
+
+    #[test]
+    fn a_broken_formula_is_refused_where_it_breaks() {
+        for (text, words) in [
+            (
+                "20 + * 3",
+                "a number, a name or `(` at character 6, but has `*`",
+            ),
+            ("2 s", "an operator or the end at character 3, but has `s`"),
+            ("sin s", "`(` at character 5, but has `s`"),
+            ("min(s)", "`,` at character 6, but has `)`"),
+            ("(s + 1", "`)` at character 7, but has the end"),
+            (
+                "s +",
+                "a number, a name or `(` at character 4, but has the end",
+            ),
+            ("1.2.3", "1.2.3, which is not a number"),
+            ("2 % s", "'%'"),
+        ] {
+            let said = Expression::new(text, "s").unwrap_err().to_string();
+            assert!(said.contains(words), "{text}: {said}");
+        }
+    }
+
+    #[test]
+    fn values_that_are_not_finite_are_errors() {
+        let formula = Expression::new("1 / s", "s").unwrap();
+        assert!(matches!(
+            formula.eval(0.0),
+            Err(EvaluationError::NotFinite { at: 0.0, .. })
+        ));
+        assert_eq!(formula.eval(0.5), Ok(2.0));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_makes_the_parser_panic(text in "[st0-9pi.e+*/^(), -]{0,40}|.{0,40}|((sin|max|atan2|s|pi|1|2\\.5|\\(|\\)|,|\\+|-|\\*|/|\\^) ?){0,24}") {
+            if let Ok(formula) = Expression::new(&text, "s") {
+                let _ = formula.eval(0.5);
+            }
+        }
+    }
 }

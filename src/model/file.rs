@@ -31,6 +31,7 @@ pub(crate) struct ModelFile {
     pub(crate) seed: Option<Field<u64>>,
     /// Where the local origin lies in the world, [easting, northing] or [easting, northing, elevation] in metres. Recorded in the results, never added to the coordinates.
     #[schemars(schema_with = "schema::origin")]
+    #[serde(default)]
     pub(crate) origin: Option<Field<Any>>,
     /// The block that is modelled.
     #[schemars(with = "DomainFile")]
@@ -40,6 +41,7 @@ pub(crate) struct ModelFile {
     pub(crate) facies: Field<Any>,
     /// The features, from oldest to youngest.
     #[schemars(schema_with = "schema::features")]
+    #[serde(default)]
     pub(crate) feature: Option<Field<Any>>,
 }
 
@@ -74,6 +76,7 @@ pub(crate) struct FaciesFile {
     pub(crate) porosity: Option<Field<f64>>,
     /// Permeability in millidarcy: one number, or [x, y, z].
     #[schemars(schema_with = "schema::permeability")]
+    #[serde(default)]
     pub(crate) permeability: Option<Field<Any>>,
 }
 
@@ -132,6 +135,7 @@ pub(crate) struct ChannelFile {
     pub(crate) top: Option<Field<Any>>,
     /// Which point of the section follows the trajectory: "thalweg" (the default) or "top-centre".
     #[schemars(schema_with = "schema::section_origin")]
+    #[serde(default)]
     pub(crate) origin: Option<Field<String>>,
     /// The way that the channel takes, in plan.
     #[schemars(schema_with = "schema::trajectory")]
@@ -182,6 +186,7 @@ pub(crate) struct PointsFile {
     pub(crate) points: Field<Any>,
     /// How the curve's parameter is spread over the points: "centripetal" (the default) or "chord-length".
     #[schemars(schema_with = "schema::parametrization")]
+    #[serde(default)]
     pub(crate) parametrization: Option<Field<String>>,
     /// Degree of the curve, 1 (straight pieces) to 3 (the default), below the number of points.
     #[schemars(range(min = 1, max = 3))]

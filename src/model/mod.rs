@@ -8,9 +8,12 @@
 
 mod check;
 mod defects;
+mod deserialize;
+mod distribution;
 mod draws;
 mod expression;
 mod file;
+mod formula;
 mod json_text;
 mod overrides;
 pub mod owner;
@@ -26,19 +29,21 @@ mod source;
 mod spec;
 mod stream;
 mod suggest;
+mod template;
 mod toml_text;
 mod tree;
 
 pub use defects::{Defect, Defects};
-pub use expression::{EvaluationError, Expression, ExpressionError, FUNCTIONS};
+pub use distribution::{Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS};
+pub use expression::{EvaluationError, Expression, ExpressionError};
+pub use formula::FUNCTIONS;
 pub use profile::Profile;
-pub use quantity::{
-    Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS, Quantity,
-};
+pub use quantity::Quantity;
 pub use schema::schema;
 pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{
-    ChannelSpec, Domain, Facies, Feature, FeatureKind, Model, Note, Parametrization, Pick, Place,
-    Property, Rgb, SectionOrigin, Selector, TrajectorySpec,
+    ChannelSpec, Domain, Facies, Feature, FeatureKind, Model, Note, Pick, Place, Property, Rgb,
+    SectionOrigin, Selector, TrajectorySpec,
 };
 pub use stream::Stream;
+pub use template::{TEMPLATES, Template};

@@ -25,6 +25,9 @@ pub fn schema() -> Value {
 fn forbid_null(value: &mut Value) {
     match value {
         Value::Object(object) => {
+            if object.get("default") == Some(&Value::Null) {
+                object.remove("default");
+            }
             if let Some(Value::Array(types)) = object.get_mut("type") {
                 types.retain(|name| name != "null");
                 if let [only] = types.as_slice() {

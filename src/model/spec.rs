@@ -6,6 +6,7 @@
 use super::expression::Expression;
 use super::profile::Profile;
 use super::quantity::Quantity;
+use crate::nurbs::interpolate::Parametrization;
 
 /// A checked model.
 #[derive(Clone, Debug, PartialEq)]
@@ -187,6 +188,10 @@ pub enum SectionOrigin {
 
 /// The way that a feature takes, in plan.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a model has one for each feature, not for each instance"
+)]
 pub enum TrajectorySpec {
     /// A straight line between two points.
     Line {
@@ -237,15 +242,6 @@ pub enum TrajectorySpec {
         /// From which t to which.
         range: [f64; 2],
     },
-}
-
-/// How the parameter of an interpolating curve is spread over its points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Parametrization {
-    /// In proportion to the distance between the points.
-    ChordLength,
-    /// In proportion to the square root of that distance.
-    Centripetal,
 }
 
 /// Where something stands in a text.

@@ -46,8 +46,8 @@ pub(crate) fn nearest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
     let distance =
         |known: &str| strsim::damerau_levenshtein(&word, &known.to_lowercase().replace('-', "_"));
     let best = known.iter().min_by_key(|known| distance(known))?;
-    let allowed = (best.chars().count().max(word.chars().count())) / 3;
-    (distance(best) <= allowed.max(1)).then_some(*best)
+    let allowed = best.chars().count().max(word.chars().count()) / 3;
+    (distance(best) <= allowed).then_some(*best)
 }
 
 /// What to do about an unknown key.
@@ -68,9 +68,9 @@ pub(crate) fn name(word: &str, known: &[&str], what: &str) -> String {
     }
 }
 
-/// The first dozen of a list of words.
+/// The first two dozen of a list of words.
 pub(crate) fn list(words: &[&str]) -> String {
-    const MOST: usize = 12;
+    const MOST: usize = 24;
     let mut text = words[..words.len().min(MOST)].join(", ");
     if words.len() > MOST {
         text.push_str(", …");

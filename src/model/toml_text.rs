@@ -6,6 +6,9 @@ use toml::de::{DeTable, DeValue};
 use super::defects::{Defect, Span};
 use super::tree::{Entry, MAX_DEPTH, NodeId, Parsed, Tree, Value, too_deep};
 
+/// A text with more syntax errors is no model file; what follows them is noise.
+const MOST_ERRORS: usize = 20;
+
 /// Adds the TOML document `source`, which is the text number `text`, to the tree.
 pub(crate) fn parse(tree: &mut Tree, text: usize, source: &str) -> Parsed {
     let (document, errors) = DeTable::parse_recoverable(source);
@@ -13,9 +16,9 @@ pub(crate) fn parse(tree: &mut Tree, text: usize, source: &str) -> Parsed {
     let mut reader = Reader {
         tree,
         text,
-        defects: errors
+        defects: worth_telling(&errors)
             .iter()
-            .map(|error| syntax_defect(text, source, error))
+            .map(|error| syntax_defect(text, error))
             .collect(),
     };
     let root = reader.table(document.get_ref(), whole, 0);
@@ -23,6 +26,17 @@ pub(crate) fn parse(tree: &mut Tree, text: usize, source: &str) -> Parsed {
         root,
         defects: reader.defects,
     }
+}
+
+/// The errors up to the first that leaves a bracket open: from there on the parser takes keys for elements.
+fn worth_telling(errors: &[toml::de::Error]) -> &[toml::de::Error] {
+    let leaves_open = |error: &toml::de::Error| {
+        ["array", "inline table", "string"]
+            .iter()
+            .any(|what| error.message().contains(what))
+    };
+    let last = errors.iter().position(leaves_open);
+    &errors[..last.map_or(errors.len(), |last| last + 1).min(MOST_ERRORS)]
 }
 
 struct Reader<'t> {
@@ -85,14 +99,10 @@ fn float(text: &str) -> f64 {
     text.parse().unwrap_or(f64::NAN)
 }
 
-fn syntax_defect(text: usize, source: &str, error: &toml::de::Error) -> Defect {
+fn syntax_defect(text: usize, error: &toml::de::Error) -> Defect {
     let span = error.span().unwrap_or(0..0);
     let message = error.message().to_owned();
-    let line = source[..span.start.min(source.len())]
-        .rsplit('\n')
-        .next()
-        .unwrap_or_default();
-    let remedy = remedy_for(&message, line);
+    let remedy = remedy_for(&message);
     Defect::new(
         Span::new(text, span.start, span.end),
         format!("not valid TOML: {message}"),
@@ -100,15 +110,17 @@ fn syntax_defect(text: usize, source: &str, error: &toml::de::Error) -> Defect {
     )
 }
 
-fn remedy_for(message: &str, line_before: &str) -> &'static str {
+fn remedy_for(message: &str) -> &'static str {
     if message.contains("duplicate key") {
         "give every key once in its table; repeat [[feature]] (double brackets) for the next feature"
     } else if message.contains("string values must be quoted") {
         "put text in double quotes: key = \"text\""
+    } else if message.contains("array") {
+        "separate the entries of a list with commas and close it with ]; perhaps the ] is missing on a line above"
     } else if message.contains("recursion limit") {
         "values are nested too deeply; check for missing closing brackets"
-    } else if line_before.contains('"') && message.contains("newline") {
-        "close the text with a double quote on the same line"
+    } else if message.contains("basic string") || message.contains("literal string") {
+        "close the text with a quote on the same line; write \\\\ for a backslash"
     } else {
         "write one `key = value` on a line; text in double quotes, lists in [ ], tables in { }"
     }

@@ -99,6 +99,50 @@ impl Tree {
         }
     }
 
+    /// For every node, the one that holds it.
+    pub(crate) fn holders(&self) -> Vec<Option<NodeId>> {
+        let mut holders = vec![None; self.nodes.len()];
+        for (i, node) in self.nodes.iter().enumerate() {
+            match &node.value {
+                Value::List(elements) => {
+                    for element in elements {
+                        holders[element.0] = Some(NodeId(i));
+                    }
+                }
+                Value::Table(entries) => {
+                    for entry in entries {
+                        holders[entry.node.0] = Some(NodeId(i));
+                    }
+                }
+                _ => {}
+            }
+        }
+        holders
+    }
+
+    /// What a node is called within its holder: its key, its id if it is one of a list of features, or its number from 1.
+    pub(crate) fn step(&self, holder: NodeId, node: NodeId) -> String {
+        match self.value(holder) {
+            Value::Table(entries) => entries
+                .iter()
+                .find(|entry| entry.node == node)
+                .map(|entry| entry.key.clone())
+                .unwrap_or_default(),
+            Value::List(elements) => {
+                let id = self
+                    .entry(node, "id")
+                    .and_then(|entry| self.text(entry.node));
+                let number = elements.iter().position(|&element| element == node);
+                match (id, number) {
+                    (Some(id), _) => id.to_owned(),
+                    (None, Some(number)) => (number + 1).to_string(),
+                    (None, None) => String::new(),
+                }
+            }
+            _ => String::new(),
+        }
+    }
+
     /// The node in words, for "expected …, found …".
     pub(crate) fn describe(&self, id: NodeId) -> String {
         match self.value(id) {

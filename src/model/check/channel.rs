@@ -1,8 +1,8 @@
 //! Channels.
 
-use super::Checker;
 use super::feature::Draft;
 use super::quantity::{ANY, ASYMMETRY, BANK_ANGLE, Limits, POSITIVE, profile};
+use super::{Checker, Reported};
 use crate::model::file::ChannelFile;
 use crate::model::profile::Profile;
 use crate::model::read::{Any, Field};
@@ -28,7 +28,7 @@ impl Checker<'_> {
         let left = self.optional(file.left_angle_deg, draft, "left_angle_deg", BANK_ANGLE);
         let right = self.optional(file.right_angle_deg, draft, "right_angle_deg", BANK_ANGLE);
         let top = self.optional(file.top, draft, "top", ANY);
-        if let (Some(Some((node, top))), Some(domain)) = (&top, domain) {
+        if let (Ok(Some((node, top))), Some(domain)) = (&top, domain) {
             self.note_top(*node, top, draft, domain);
         }
         let origin = match file.origin {
@@ -38,15 +38,16 @@ impl Checker<'_> {
                 .and_then(|(node, word)| self.section_origin(node, &word)),
         };
         let example = "trajectory = { kind = \"line\", azimuth_deg = 45 }";
-        let trajectory = match file.trajectory {
-            Field::Missing => {
-                self.missing(draft, "trajectory", example);
-                None
-            }
-            field => field
-                .good()
-                .and_then(|(node, Any)| self.trajectory(node, draft)),
-        };
+        let trajectory = self
+            .reader
+            .need(
+                file.trajectory,
+                draft.node,
+                &draft.name,
+                "trajectory",
+                example,
+            )
+            .and_then(|(node, Any)| self.trajectory(node, draft));
         let angle = self.number_in(
             file.angle_limit_deg,
             DEFAULT_ANGLE_LIMIT_DEG,
@@ -63,23 +64,15 @@ impl Checker<'_> {
         Some(ChannelSpec {
             width: plain(width)?,
             depth: plain(depth)?,
-            asymmetry: plain(asymmetry?).unwrap_or(Profile::from(0.0)),
-            left_angle_deg: plain(left?),
-            right_angle_deg: plain(right?),
-            top: plain(top?),
+            asymmetry: plain(asymmetry.ok()?).unwrap_or(Profile::from(0.0)),
+            left_angle_deg: plain(left.ok()?),
+            right_angle_deg: plain(right.ok()?),
+            top: plain(top.ok()?),
             origin: origin?,
             trajectory: trajectory?,
             angle_limit_deg: angle?,
             tolerance_fraction: tolerance?,
         })
-    }
-
-    fn missing(&self, draft: &Draft, key: &str, example: &str) {
-        self.reader.wrong(
-            draft.node,
-            format!("{} has no `{key}`", draft.name),
-            format!("add it, for example: {example}"),
-        );
     }
 
     fn required(
@@ -90,25 +83,27 @@ impl Checker<'_> {
         example: &str,
         limits: Limits,
     ) -> Option<(NodeId, Profile)> {
-        if matches!(field, Field::Missing) {
-            self.missing(draft, key, example);
-        }
-        let (node, Any) = field.good()?;
+        let (node, Any) = self
+            .reader
+            .need(field, draft.node, &draft.name, key, example)?;
         let what = format!("the {key} of {}", draft.name);
         profile(&self.reader, node, &what, limits).map(|profile| (node, profile))
     }
 
-    /// `None` where it is wrong, `Some(None)` where it is left out.
+    /// `None` where it is left out.
     fn optional(
         &self,
         field: Option<Field<Any>>,
         draft: &Draft,
         key: &str,
         limits: Limits,
-    ) -> Option<Option<(NodeId, Profile)>> {
+    ) -> Result<Option<(NodeId, Profile)>, Reported> {
         match field {
-            None => Some(None),
-            Some(field) => self.required(field, draft, key, "", limits).map(Some),
+            None => Ok(None),
+            Some(field) => self
+                .required(field, draft, key, "", limits)
+                .map(Some)
+                .ok_or(Reported),
         }
     }
 

@@ -1,6 +1,7 @@
 //! From text to a checked [`Model`], with every defect found on the way.
 
 mod channel;
+mod family;
 mod feature;
 mod quantity;
 mod rock;
@@ -42,12 +43,16 @@ impl Model {
             Format::Json => json_text::parse(&mut tree, 0, &source.text),
         };
         if !parsed.defects.is_empty() {
-            parsed.defects.into_iter().for_each(|d| defects.add(d));
+            for defect in parsed.defects {
+                defects.add(defect);
+            }
             return defects.finish(texts, None);
         }
         for (number, assignment) in source.assignments.iter().enumerate() {
             if let Err(list) = overrides::apply(&mut tree, parsed.root, number + 1, assignment) {
-                list.into_iter().for_each(|defect| defects.add(defect));
+                for defect in list {
+                    defects.add(defect);
+                }
             }
         }
         let checker = Checker {
@@ -61,16 +66,16 @@ impl Model {
 }
 
 fn texts_of(source: &Source) -> Arc<Vec<Text>> {
-    let file = Text {
-        name: source.name.clone(),
-        text: source.text.clone(),
-    };
-    let arguments = source.assignments.iter().map(|assignment| Text {
-        name: "--set".to_owned(),
-        text: assignment.clone(),
-    });
+    let file = Text::new(source.name.clone(), source.text.clone());
+    let arguments = source
+        .assignments
+        .iter()
+        .map(|assignment| Text::new("--set".to_owned(), assignment.clone()));
     Arc::new(std::iter::once(file).chain(arguments).collect())
 }
+
+/// A value is wrong, and the defect is reported: what [`Option`] cannot say of a key that may be left out.
+struct Reported;
 
 struct Checker<'t> {
     reader: Reader<'t>,
@@ -111,14 +116,21 @@ impl Checker<'_> {
             domain: domain?,
             facies: facies.finished()?,
             features: features?,
-            notes: std::mem::take(&mut self.notes),
+            notes: self.sorted_notes(),
         })
     }
 
+    /// The notes in the order of the file.
+    fn sorted_notes(&mut self) -> Vec<Note> {
+        let mut notes = std::mem::take(&mut self.notes);
+        notes.sort_by_key(|note| (note.place.line, note.place.column));
+        notes
+    }
+
     fn name(&self, field: Field<String>, root: NodeId) -> Option<String> {
-        let (node, name) = self
-            .reader
-            .need(field, root, "name", "name = \"Channel belt\"")?;
+        let (node, name) =
+            self.reader
+                .need(field, root, "the model", "name", "name = \"Channel belt\"")?;
         if name.trim().is_empty() {
             self.reader.wrong(
                 node,

@@ -1,12 +1,15 @@
 //! Quantities and profiles: their shapes, their distributions, and whether what they can give is possible.
 
-use crate::model::expression::{Expression, ExpressionError, FUNCTIONS};
+use crate::model::deserialize::number_remedy;
+use crate::model::distribution::{Distribution, DistributionError};
+use crate::model::expression::{Expression, ExpressionError};
 use crate::model::file::{DistributionFile, ExpressionFile};
+use crate::model::formula::FUNCTIONS;
 use crate::model::profile::Profile;
-use crate::model::quantity::{Distribution, DistributionError, Quantity};
+use crate::model::quantity::Quantity;
 use crate::model::read::{Any, Field, Reader};
 use crate::model::suggest;
-use crate::model::tree::{NodeId, Value};
+use crate::model::tree::{NodeId, Value, quoted};
 
 /// What a number may be.
 #[derive(Clone, Copy, Debug)]
@@ -106,17 +109,21 @@ pub(crate) fn profile(
     }
 }
 
+/// Whether a text was meant as a formula: it can be read as one, and depends on `s`.
+fn formula_in_s(text: &str) -> bool {
+    Expression::new(text, "s").is_ok_and(|formula| formula.eval(0.25) != formula.eval(0.75))
+}
+
 fn wrong_shape(reader: &Reader<'_>, node: NodeId, what: &str, varies: bool) {
     let found = reader.tree.describe(node);
     let remedy = match reader.tree.value(node) {
-        Value::Text(text) => match (text.trim().parse::<f64>(), varies) {
-            (Ok(_), _) => format!("remove the quotes: {}", text.trim()),
-            (Err(_), true) => format!(
-                "write a number in metres without a unit, or {{ expression = {} }} for a formula in s",
-                crate::model::tree::quoted(text)
-            ),
-            (Err(_), false) => "write a number without quotes or unit".to_owned(),
-        },
+        Value::Text(text) if varies && formula_in_s(text) => {
+            format!(
+                "write {{ expression = {} }} for a formula in s",
+                quoted(text)
+            )
+        }
+        Value::Text(text) => number_remedy(text),
         Value::List(elements) => match elements.len() {
             2 => "write { uniform = [minimum, maximum] } for a range".to_owned(),
             3 => "write { triangular = [minimum, most likely, maximum] }".to_owned(),

@@ -1,5 +1,7 @@
 //! The domain and the facies.
 
+use std::collections::BTreeMap;
+
 use super::Checker;
 use crate::model::file::{DomainFile, FaciesFile};
 use crate::model::read::{Any, Field};
@@ -57,6 +59,7 @@ const PALETTE: [Rgb; 8] = [
 /// The facies of the file: their names are known even where they are broken, so references can be judged.
 pub(super) struct FaciesList {
     names: Vec<String>,
+    index: BTreeMap<String, usize>,
     nodes: Vec<NodeId>,
     read: Vec<Option<Facies>>,
     whole: bool,
@@ -70,7 +73,7 @@ impl FaciesList {
     }
 
     pub(super) fn find(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|known| known == name)
+        self.index.get(name).copied()
     }
 
     pub(super) fn names(&self) -> Vec<&str> {
@@ -82,12 +85,16 @@ impl Checker<'_> {
     pub(super) fn all_facies(&self, field: Field<Any>, root: NodeId) -> FaciesList {
         let mut list = FaciesList {
             names: Vec::new(),
+            index: BTreeMap::new(),
             nodes: Vec::new(),
             read: Vec::new(),
             whole: false,
         };
         let example = "a table [facies.sand] with color = \"#e6c25c\"";
-        let Some((node, Any)) = self.reader.need(field, root, "facies", example) else {
+        let Some((node, Any)) = self
+            .reader
+            .need(field, root, "the model", "facies", example)
+        else {
             return list;
         };
         let Value::Table(entries) = self.reader.tree.value(node) else {
@@ -109,6 +116,7 @@ impl Checker<'_> {
         list.whole = true;
         for (number, entry) in entries.iter().enumerate() {
             list.names.push(entry.key.clone());
+            list.index.insert(entry.key.clone(), number);
             list.nodes.push(entry.node);
             list.read.push(self.facies(entry, number));
         }
@@ -131,8 +139,7 @@ impl Checker<'_> {
             Some(given) => given.and_then(|(at, text)| self.color(at, &text)),
         };
         let properties = self.properties(*node, key);
-        let (porosity, permeability) = (file.porosity, file.permeability);
-        if let Some((at, value)) = porosity.and_then(Field::good)
+        if let Some((at, value)) = file.porosity.and_then(Field::good)
             && !(0.0..=1.0).contains(&value)
         {
             self.reader.wrong(
@@ -148,13 +155,11 @@ impl Checker<'_> {
                 },
             );
         }
-        if let Some((at, Any)) = permeability.and_then(Field::good)
-            && let Some(property) = self.property(at)
+        let permeability = properties.iter().find(|(key, _)| key == "permeability");
+        if let Some((at, Any)) = file.permeability.and_then(Field::good)
+            && let Some((_, Property::Vector(values))) = permeability
         {
-            let lowest = match property {
-                Property::Scalar(value) => value,
-                Property::Vector(values) => values.into_iter().fold(f64::INFINITY, f64::min),
-            };
+            let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
             if lowest < 0.0 {
                 self.reader.wrong(
                     at,
@@ -179,16 +184,10 @@ impl Checker<'_> {
     /// Every number of the facies, in file order.
     fn properties(&self, facies: NodeId, name: &str) -> Vec<(String, Property)> {
         let known = self.reader.known(facies);
-        let unknown: Vec<&str> = self
-            .reader
-            .unknown(facies)
-            .iter()
-            .map(|entry| entry.key.as_str())
-            .collect();
         let mut properties = Vec::new();
         for entry in self.reader.tree.entries(facies) {
             let key = entry.key.as_str();
-            if unknown.contains(&key) {
+            if !known.contains(&key) {
                 let property_like = matches!(
                     self.reader.tree.value(entry.node),
                     Value::Integer(_) | Value::Float(_) | Value::List(_)
@@ -276,14 +275,18 @@ impl Checker<'_> {
     ) -> Option<Domain> {
         let example =
             "a table [domain] with x = [0, 1000], y = [0, 1000], z = [-60, 0], facies = \"mud\"";
-        let (table, Any) = self.reader.need(field, root, "domain", example)?;
+        let (table, Any) = self
+            .reader
+            .need(field, root, "the model", "domain", example)?;
         let file: DomainFile = self.reader.table(table)?;
         self.reader.close(table, "the domain");
         let x = self.range(file.x, table, "x", "x = [0, 1000]");
         let y = self.range(file.y, table, "y", "y = [0, 1000]");
         let z = self.range(file.z, table, "z", "z = [-60, 0]");
         let example = "facies = \"mud\"";
-        let named = self.reader.need(file.facies, table, "facies", example);
+        let named = self
+            .reader
+            .need(file.facies, table, "the domain", "facies", example);
         let facies = named.and_then(|(node, name)| self.known_facies(node, &name, facies));
         Some(Domain {
             x: x?,
@@ -300,14 +303,9 @@ impl Checker<'_> {
         axis: &str,
         example: &str,
     ) -> Option<[f64; 2]> {
-        if matches!(field, Field::Missing) {
-            self.reader.wrong(
-                table,
-                format!("the domain has no `{axis}`"),
-                format!("add it, for example: {example}"),
-            );
-        }
-        let (node, [low, high]) = field.good()?;
+        let (node, [low, high]) = self
+            .reader
+            .need(field, table, "the domain", axis, example)?;
         if high - low >= THINNEST {
             return Some([low, high]);
         }
@@ -339,7 +337,8 @@ impl Checker<'_> {
             self.reader.wrong(
                 node,
                 format!("there is no facies {}", quoted(name)),
-                suggest::name(name, &facies.names(), "facies"),
+                self.reader
+                    .hint(|| suggest::name(name, &facies.names(), "facies")),
             );
         }
         found
@@ -351,8 +350,13 @@ impl Checker<'_> {
         domain: &Domain,
         features: &[Feature],
     ) {
+        let mut used = vec![false; facies.names.len()];
+        used[domain.facies] = true;
+        for feature in features {
+            used[feature.facies] = true;
+        }
         for (i, name) in facies.names.iter().enumerate() {
-            if domain.facies != i && features.iter().all(|feature| feature.facies != i) {
+            if !used[i] {
                 self.note(
                     facies.nodes[i],
                     format!("nothing is of the facies `{name}`"),

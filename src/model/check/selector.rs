@@ -1,8 +1,10 @@
 //! Who removes whom: `removes` and `removed_by`.
 
+use std::cmp::Ordering;
+
 use super::Checker;
-use super::feature::{Draft, ids};
-use super::rock::FaciesList;
+use super::family::{Family, ids};
+use super::feature::Draft;
 use crate::model::file::PickFile;
 use crate::model::read::{Any, Field};
 use crate::model::spec::{Pick, Selector};
@@ -28,57 +30,32 @@ const REMOVED_BY: Rule = Rule {
     other_default: "older",
 };
 
-/// What a pick is judged against.
-struct Context<'c> {
-    rule: Rule,
-    drafts: &'c [Draft],
-    /// Which of the drafts the rule belongs to.
-    index: usize,
-    facies: &'c FaciesList,
-}
-
 impl Checker<'_> {
     pub(super) fn removes(
         &mut self,
         draft: &Draft,
-        field: &Option<Field<Any>>,
-        drafts: &[Draft],
-        index: usize,
-        facies: &FaciesList,
+        field: Option<&Field<Any>>,
+        family: &Family<'_>,
     ) -> Option<Selector> {
-        let context = Context {
-            rule: REMOVES,
-            drafts,
-            index,
-            facies,
-        };
-        self.selector(field, draft, &context)
+        self.selector(field, draft, REMOVES, family)
     }
 
     pub(super) fn removed_by(
         &mut self,
         draft: &Draft,
-        field: &Option<Field<Any>>,
-        drafts: &[Draft],
-        index: usize,
-        facies: &FaciesList,
+        field: Option<&Field<Any>>,
+        family: &Family<'_>,
     ) -> Option<Selector> {
-        let context = Context {
-            rule: REMOVED_BY,
-            drafts,
-            index,
-            facies,
-        };
-        self.selector(field, draft, &context)
+        self.selector(field, draft, REMOVED_BY, family)
     }
 
     fn selector(
         &mut self,
-        field: &Option<Field<Any>>,
+        field: Option<&Field<Any>>,
         draft: &Draft,
-        context: &Context<'_>,
+        rule: Rule,
+        family: &Family<'_>,
     ) -> Option<Selector> {
-        let rule = context.rule;
         let node = match field {
             None => return Some(Selector::Everything),
             Some(Field::Good(node, Any)) => *node,
@@ -90,7 +67,7 @@ impl Checker<'_> {
             }
             Value::Text(word) if word == "nothing" => Some(Selector::Only(Vec::new())),
             Value::Text(word) => {
-                let remedy = if ids(context.drafts).contains(&word.as_str()) {
+                let remedy = if ids(family.drafts).contains(&word.as_str()) {
                     format!("write a list: {} = [{word:?}]", rule.key)
                 } else if word == rule.other_default {
                     format!("`{}` can be \"{}\"", rule.key, rule.default)
@@ -110,7 +87,7 @@ impl Checker<'_> {
             Value::List(elements) => {
                 let picks: Vec<Option<Pick>> = elements
                     .iter()
-                    .map(|&element| self.pick(element, context))
+                    .map(|&element| self.pick(element, rule, family))
                     .collect();
                 Some(Selector::Only(picks.into_iter().collect::<Option<_>>()?))
             }
@@ -132,10 +109,10 @@ impl Checker<'_> {
         }
     }
 
-    fn pick(&mut self, node: NodeId, context: &Context<'_>) -> Option<Pick> {
+    fn pick(&mut self, node: NodeId, rule: Rule, family: &Family<'_>) -> Option<Pick> {
         match self.reader.tree.value(node) {
-            Value::Text(id) => self.pick_id(node, id, context),
-            Value::Table(_) => self.pick_table(node, context),
+            Value::Text(id) => self.pick_id(node, id, rule, family),
+            Value::Table(_) => self.pick_table(node, rule, family),
             _ => {
                 let found = self.reader.tree.describe(node);
                 self.reader.wrong(
@@ -148,7 +125,7 @@ impl Checker<'_> {
         }
     }
 
-    fn pick_table(&mut self, node: NodeId, context: &Context<'_>) -> Option<Pick> {
+    fn pick_table(&mut self, node: NodeId, rule: Rule, family: &Family<'_>) -> Option<Pick> {
         let before = self.reader.found();
         let file: PickFile = self.reader.table(node)?;
         self.reader.close(node, "this selector");
@@ -158,13 +135,13 @@ impl Checker<'_> {
         let level = file.level.and_then(Field::good);
         let facies = file.facies.and_then(Field::good);
         match (id, kind, level, facies) {
-            (Some((at, id)), None, None, None) => self.pick_id(at, &id, context),
+            (Some((at, id)), None, None, None) => self.pick_id(at, &id, rule, family),
             (None, Some((at, kind)), None, None) => {
                 self.known_kind(at, &kind).then_some(Pick::Kind(kind))
             }
             (None, None, Some((at, level)), None) => self.level(at, level).map(Pick::Level),
             (None, None, None, Some((at, name))) => self
-                .known_facies(at, &name, context.facies)
+                .known_facies(at, &name, family.facies)
                 .map(|_| Pick::Facies(name)),
             _ => {
                 self.reader.wrong(
@@ -177,10 +154,10 @@ impl Checker<'_> {
         }
     }
 
-    fn pick_id(&mut self, node: NodeId, id: &str, context: &Context<'_>) -> Option<Pick> {
-        let Rule { key, .. } = context.rule;
+    fn pick_id(&mut self, node: NodeId, id: &str, rule: Rule, family: &Family<'_>) -> Option<Pick> {
+        let key = rule.key;
         if id == "background" {
-            if context.rule.key == REMOVED_BY.key {
+            if rule.key == REMOVED_BY.key {
                 self.note(
                     node,
                     "the background removes nothing, so this has no effect",
@@ -188,27 +165,27 @@ impl Checker<'_> {
             }
             return Some(Pick::Id(id.to_owned()));
         }
-        let find = |draft: &Draft| draft.id.as_ref().is_some_and(|(_, known)| known == id);
-        let Some(target) = context.drafts.iter().position(find) else {
-            let mut known = ids(context.drafts);
-            known.push("background");
+        let Some(&target) = family.index.get(id) else {
+            let remedy = self.reader.hint(|| {
+                let mut known = ids(family.drafts);
+                known.push("background");
+                suggest::name(id, &known, "features")
+            });
             self.reader.wrong(
                 node,
                 format!("`{key}` names {}, which is not a feature", quoted(id)),
-                suggest::name(id, &known, "features"),
+                remedy,
             );
             return None;
         };
-        let younger = target > context.index;
-        let backwards = if context.rule.key == REMOVES.key {
-            younger
+        let (without_effect, age) = if rule.key == REMOVES.key {
+            (Ordering::Greater, "younger")
         } else {
-            target < context.index
+            (Ordering::Less, "older")
         };
-        if !context.drafts[target].enabled {
+        if !family.drafts[target].enabled {
             self.note(node, format!("`{key}` names `{id}`, which is disabled"));
-        } else if backwards {
-            let age = if younger { "younger" } else { "older" };
+        } else if family.age_of(target) == without_effect {
             self.note(
                 node,
                 format!("`{key}` names `{id}`, which is {age}, so this has no effect"),

@@ -1,15 +1,16 @@
 //! Trajectories, by their kind.
 
-use super::Checker;
 use super::feature::Draft;
 use super::quantity::{ANY, AZIMUTH, Limits, POSITIVE, expression, quantity};
+use super::{Checker, Reported};
 use crate::model::expression::Expression;
 use crate::model::file::{LineFile, ParametricFile, PointsFile, SineGeneratedFile, TrajectoryFile};
 use crate::model::quantity::Quantity;
 use crate::model::read::{Any, Field};
-use crate::model::spec::{Parametrization, TrajectorySpec};
+use crate::model::spec::TrajectorySpec;
 use crate::model::suggest;
 use crate::model::tree::{NodeId, Value, quoted};
+use crate::nurbs::interpolate::Parametrization;
 
 const KINDS: [&str; 4] = ["line", "points", "sine-generated", "parametric"];
 /// Points nearer to each other than this are the same point, in metres.
@@ -38,22 +39,23 @@ impl Checker<'_> {
             }
             field => field.good()?,
         };
-        let spec = match kind.as_str() {
+        let known = KINDS.into_iter().find(|known| *known == kind);
+        // What was probably meant is checked too, so that one slip hides no other.
+        let meant = known.or_else(|| {
+            let nearest = suggest::nearest(&kind, &KINDS);
+            let remedy = match nearest {
+                Some(known) => format!("did you mean \"{known}\"?"),
+                None => format!("the kinds are: {}", suggest::list(&KINDS)),
+            };
+            let message = format!("there is no kind of trajectory {}", quoted(&kind));
+            self.reader.wrong(at, message, remedy);
+            nearest
+        });
+        let spec = match meant? {
             "line" => self.line(&table),
             "points" => self.points(&table),
             "sine-generated" => self.sine_generated(&table),
-            "parametric" => self.parametric(&table),
-            _ => {
-                self.reader.wrong(
-                    at,
-                    format!("there is no kind of trajectory {}", quoted(&kind)),
-                    match suggest::nearest(&kind, &KINDS) {
-                        Some(known) => format!("did you mean \"{known}\"?"),
-                        None => format!("the kinds are: {}", suggest::list(&KINDS)),
-                    },
-                );
-                return None;
-            }
+            _ => self.parametric(&table),
         };
         self.reader.close(node, &name);
         spec
@@ -85,15 +87,15 @@ impl Checker<'_> {
             return None;
         }
         if by_heading {
-            let azimuth_deg = self.given(azimuth?, table, "azimuth_deg", "azimuth_deg = 45");
+            let azimuth_deg = self.given(azimuth.ok()?, table, "azimuth_deg", "azimuth_deg = 45");
             return Some(TrajectorySpec::Heading {
                 azimuth_deg: azimuth_deg?,
-                center: center?,
-                length: length?,
+                center: center.ok()?,
+                length: length.ok()?,
             });
         }
-        let from = self.given(from?, table, "from", "from = [0, 500]");
-        let to = self.given(to?, table, "to", "to = [1000, 500]");
+        let from = self.given(from.ok()?, table, "from", "from = [0, 500]");
+        let to = self.given(to.ok()?, table, "to", "to = [1000, 500]");
         let (from, to) = (from?, to?);
         if from == to && from.iter().all(|c| c.constant().is_some()) {
             self.reader.wrong(
@@ -245,9 +247,9 @@ impl Checker<'_> {
             amplitude: amplitude?,
             wavelength: wavelength?,
             azimuth_deg: azimuth_deg?,
-            center: center?,
-            phase: phase?,
-            length: length?,
+            center: center.ok()?,
+            phase: phase.ok()?,
+            length: length.ok()?,
         })
     }
 
@@ -318,11 +320,8 @@ impl Checker<'_> {
     }
 
     fn missing_key(&self, table: &Table<'_>, key: &str, example: &str) {
-        self.reader.wrong(
-            table.node,
-            format!("the trajectory of {} has no `{key}`", table.draft.name),
-            format!("add it, for example: {example}"),
-        );
+        let name = format!("the trajectory of {}", table.draft.name);
+        self.reader.missing(table.node, &name, key, example);
     }
 
     fn must(
@@ -341,17 +340,20 @@ impl Checker<'_> {
         quantity(&self.reader, node, &what, limits)
     }
 
-    /// `None` where it is wrong, `Some(None)` where it is left out.
+    /// `None` where it is left out.
     fn maybe(
         &self,
         field: Option<Field<Any>>,
         table: &Table<'_>,
         key: &str,
         limits: Limits,
-    ) -> Option<Option<Quantity>> {
+    ) -> Result<Option<Quantity>, Reported> {
         match field {
-            None => Some(None),
-            Some(field) => self.must(field, table, key, "", limits).map(Some),
+            None => Ok(None),
+            Some(field) => self
+                .must(field, table, key, "", limits)
+                .map(Some)
+                .ok_or(Reported),
         }
     }
 
@@ -367,11 +369,11 @@ impl Checker<'_> {
         field: Option<Field<Any>>,
         table: &Table<'_>,
         key: &str,
-    ) -> Option<Option<[Quantity; 2]>> {
+    ) -> Result<Option<[Quantity; 2]>, Reported> {
         let Some(field) = field else {
-            return Some(None);
+            return Ok(None);
         };
-        let (node, Any) = field.good()?;
+        let (node, Any) = field.good().ok_or(Reported)?;
         let &[x, y] = self.reader.tree.elements(node) else {
             self.reader.wrong(
                 node,
@@ -382,13 +384,16 @@ impl Checker<'_> {
                 ),
                 "write the two coordinates in [ ], in metres",
             );
-            return None;
+            return Err(Reported);
         };
         let coordinate = |node: NodeId, axis: &str| {
             let what = format!("the {axis} of the {key} of {}", table.draft.name);
             quantity(&self.reader, node, &what, ANY)
         };
         let (x, y) = (coordinate(x, "x"), coordinate(y, "y"));
-        Some(Some([x?, y?]))
+        match (x, y) {
+            (Some(x), Some(y)) => Ok(Some([x, y])),
+            _ => Err(Reported),
+        }
     }
 }
