@@ -7,9 +7,10 @@
 )]
 
 use clinothem::model::{
-    Defects, Expression, FeatureKind, Format, Model, Parametrization, Pick, Profile, Property,
-    Quantity, Rgb, SectionOrigin, Selector, Source, TEMPLATES, TrajectorySpec,
+    Defects, Expression, FeatureKind, Format, Model, Pick, Profile, Property, Quantity, Rgb,
+    SectionOrigin, Selector, Source, TEMPLATES, TrajectorySpec,
 };
+use clinothem::nurbs::interpolate::Parametrization;
 
 fn read(path: &str) -> Model {
     let source = Source::read(path).unwrap();

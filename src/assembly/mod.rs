@@ -5,12 +5,11 @@
 //! of a short ladder is tried; none changes any geometry inside the domain or draws anything anew. What
 //! cannot be proven is refused.
 
-mod kernel;
+pub(crate) mod kernel;
 mod labels;
 pub mod measure;
-pub mod output;
 pub mod proof;
-mod shapes;
+pub(crate) mod shapes;
 pub mod worker;
 
 use std::time::{Duration, Instant};
@@ -92,7 +91,7 @@ pub struct Failed {
 
 /// A proven assembly.
 pub struct Assembly {
-    solids: kernel::Solids,
+    pub(crate) solids: kernel::Solids,
     /// Volumes, areas and neighbours.
     pub measured: Measured,
     /// The proof.
@@ -111,6 +110,18 @@ pub struct Assembly {
     pub alerts: Vec<String>,
     /// Seconds per stage.
     pub timings: Vec<(&'static str, Duration)>,
+}
+
+impl Assembly {
+    /// All solids in one shape with common faces, in the order of [`Measured::pieces`].
+    pub(crate) fn ordered_compound(&self) -> Result<kernel::Shape, kernel::BridgeError> {
+        let solids = self
+            .measured
+            .pieces
+            .iter()
+            .map(|piece| self.solids.shape_of(piece.solid));
+        kernel::compound(&solids.collect::<Result<Vec<_>, _>>()?)
+    }
 }
 
 /// Why there is no assembly.

@@ -44,6 +44,14 @@ pub enum Level {
 }
 
 impl Level {
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Full => "full",
+        }
+    }
+
     fn classified(self) -> usize {
         match self {
             Self::Fast => 100,

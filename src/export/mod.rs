@@ -1,3 +1,40 @@
-//! What the model is written to: one output format per file.
+//! Export: one output format per file.
 
+#[cfg(feature = "occt")]
+pub mod brep;
+#[cfg(feature = "occt")]
+pub mod mesh;
 pub mod picture;
+#[cfg(feature = "occt")]
+pub mod report;
+#[cfg(feature = "occt")]
+pub mod step;
+#[cfg(feature = "occt")]
+pub mod table;
+#[cfg(feature = "occt")]
+mod text;
+
+/// Why a file could not be written.
+#[cfg(feature = "occt")]
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The kernel could not write or convert.
+    #[error("{what}: {message}")]
+    Kernel {
+        /// What was being written.
+        what: &'static str,
+        /// The kernel's words.
+        message: String,
+    },
+    /// A surface could not be handed over.
+    #[error("{volume}: its ends cannot be closed: {source}")]
+    Surface {
+        /// The volume's name.
+        volume: String,
+        /// Why.
+        source: crate::nurbs::SurfaceError,
+    },
+    /// A table could not be written.
+    #[error("{0}")]
+    Table(String),
+}

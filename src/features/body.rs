@@ -18,6 +18,11 @@ pub enum Role {
 }
 
 impl Role {
+    /// Whether the sheet is a surface of the rock, not only the end of a shell.
+    pub fn is_geological(self) -> bool {
+        matches!(self, Self::Base | Self::Top)
+    }
+
     /// The role's name in files and reports.
     pub fn name(self) -> &'static str {
         match self {
