@@ -3,6 +3,7 @@
 
 #[cfg(feature = "occt")]
 pub mod assembly;
+pub mod cli;
 pub mod export;
 pub mod features;
 pub mod model;

@@ -1,0 +1,65 @@
+//! Arguments that several commands share.
+
+use std::path::PathBuf;
+
+use crate::model::selection::Selection;
+
+/// The model and what is changed in it for this run.
+#[derive(Debug, clap::Args)]
+pub(super) struct ModelArgs {
+    /// The model file (TOML, or JSON if its name ends in .json).
+    #[arg(value_name = "MODEL")]
+    pub(super) model: PathBuf,
+    /// Draw with this seed instead of the model's.
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u64>,
+    /// Override a value of the model file: feature.channel.width=30, domain.z=[-80,0]; repeatable.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+    /// Leave out a feature (channel) or a volume (channel-3), with its children; repeatable.
+    #[arg(long, value_name = "ID", num_args = 1..)]
+    pub(super) without: Vec<String>,
+    /// Leave out levels deeper than this (1 = largest).
+    #[arg(long, value_name = "LEVEL")]
+    pub(super) max_level: Option<u32>,
+}
+
+impl ModelArgs {
+    pub(super) fn selection(&self) -> Selection {
+        Selection {
+            without: self.without.clone(),
+            max_level: self.max_level,
+        }
+    }
+
+    /// The model file's name without folder and ending: the base of output names.
+    pub(super) fn stem(&self) -> String {
+        self.model.file_stem().map_or_else(
+            || "model".to_owned(),
+            |stem| stem.to_string_lossy().into_owned(),
+        )
+    }
+}
+
+/// Reads `1,2` or `1,2,3` as numbers.
+pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let wrong = || format!("`{text}` is not {N} numbers separated by commas");
+    let values: Vec<f64> = parts
+        .iter()
+        .map(|part| part.parse().map_err(|_| wrong()))
+        .collect::<Result<_, _>>()?;
+    let values: [f64; N] = values.try_into().map_err(|_| wrong())?;
+    if values.iter().all(|value: &f64| value.is_finite()) {
+        Ok(values)
+    } else {
+        Err(wrong())
+    }
+}
+
+/// Reads a finite number.
+pub(super) fn finite(text: &str) -> Result<f64, String> {
+    numbers::<1>(text)
+        .map(|[value]| value)
+        .map_err(|_| format!("`{text}` is not a finite number"))
+}

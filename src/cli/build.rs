@@ -1,0 +1,451 @@
+//! `clinothem build`: solids, report, proof.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use super::args::ModelArgs;
+use super::failure::Failure;
+use super::load::{self, Loaded};
+use super::progress::Progress;
+use super::{files, interrupt, print};
+use crate::assembly::{self, Assembly, AssemblyError, Cancel, proof, worker};
+use crate::export::report::{Parts, Report};
+use crate::export::{ExportError, brep, step, table};
+use crate::model::plan::AssemblyPlan;
+
+/// Build watertight solids and write them as STEP, with a report and the proof that they are right.
+///
+/// Writes to DIR: MODEL.step (and what --formats adds), volumes.csv, report.json and run.json. The same
+/// model, seed and version give the same bytes; run.json holds what differs from run to run.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  clinothem build channel-belt.toml
+  clinothem build channel-belt.toml --seed 12 -o belt-12
+  clinothem build channel-belt.toml --without channel-3 --formats step,step-shared,brep
+  clinothem build channel-belt.toml --set feature.channel.width=30 --json")]
+pub(super) struct Args {
+    #[command(flatten)]
+    pub(super) model: ModelArgs,
+    /// The folder for the results; MODEL-out if not given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Write into a folder that holds other things than a build's results.
+    #[arg(long)]
+    force: bool,
+    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
+    formats: Vec<Format>,
+    /// The application protocol that STEP files declare.
+    #[arg(long, value_enum, default_value_t)]
+    step_schema: Schema,
+    #[command(flatten)]
+    pub(super) engine: EngineArgs,
+    /// Print the report as JSON instead of tables.
+    #[arg(long)]
+    json: bool,
+}
+
+/// How solids are assembled.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct EngineArgs {
+    /// How thorough the proof is; fast is always made.
+    #[arg(long, value_enum, default_value_t)]
+    proof: ProofLevel,
+    /// Worker threads; all of the machine's if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Stop a general fuse that takes longer (s).
+    #[arg(long, value_name = "SECONDS", default_value_t = 1800, value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: u64,
+    /// No progress bars and no summary.
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Step,
+    StepShared,
+    Brep,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Schema {
+    /// Automotive design: read by everything.
+    #[default]
+    Ap214,
+    /// Managed model based engineering.
+    Ap242,
+}
+
+impl From<Schema> for step::Protocol {
+    fn from(schema: Schema) -> Self {
+        match schema {
+            Schema::Ap214 => Self::Ap214,
+            Schema::Ap242 => Self::Ap242,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum ProofLevel {
+    #[default]
+    Fast,
+    Full,
+}
+
+impl EngineArgs {
+    pub(super) fn level(&self) -> proof::Level {
+        match self.proof {
+            ProofLevel::Fast => proof::Level::Fast,
+            ProofLevel::Full => proof::Level::Full,
+        }
+    }
+}
+
+/// A model with its proven solids.
+pub(super) struct Built {
+    pub(super) loaded: Loaded,
+    pub(super) plan: AssemblyPlan,
+    pub(super) assembly: Assembly,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let started = Instant::now();
+    let folder = args
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}-out", args.model.stem())));
+    // Before the work: a folder that cannot be used is told at once.
+    check_folder(&folder, args.force)?;
+    let loaded = load::realise(&args.model, args.json)?;
+    let cancel = interrupt::cancel()?;
+    let progress = Progress::new(args.engine.quiet || args.json);
+    let built = assemble(loaded, &args.engine, &cancel, &progress)?;
+    let report = Report::new(Parts {
+        model: &built.loaded.model,
+        realisation: &built.loaded.realisation,
+        plan: &built.plan,
+        assembly: &built.assembly,
+        level: args.engine.level(),
+    });
+    progress.stage("writing");
+    let writing = Instant::now();
+    let output = Output {
+        folder: &folder,
+        stem: args.model.stem(),
+        args,
+    };
+    let written = output.write(&built, &report, writing, started)?;
+    progress.done();
+    if args.json {
+        let json = report
+            .to_json()
+            .map_err(|error| Failure::Surroundings(error.to_string()))?;
+        print::out(json.trim_end());
+    } else if !args.engine.quiet {
+        print::out(summary(&report, &folder, &written).trim_end());
+    }
+    Ok(())
+}
+
+/// Plans, assembles and proves.
+pub(super) fn assemble(
+    mut loaded: Loaded,
+    engine: &EngineArgs,
+    cancel: &Cancel,
+    progress: &Progress,
+) -> Result<Built, Failure> {
+    let started = Instant::now();
+    let wrong = |error: &dyn std::fmt::Display| Failure::Wrong(error.to_string());
+    let plan = AssemblyPlan::new(&loaded.realisation, &loaded.model.domain)
+        .map_err(|error| wrong(&error))?;
+    let owners = loaded.owners()?;
+    loaded.timings.push(("plan", started.elapsed()));
+    let program = std::env::current_exe().map_err(|error| {
+        Failure::Surroundings(format!("the program cannot find itself: {error}"))
+    })?;
+    let options = assembly::Options {
+        child: Some(worker::Child {
+            program,
+            time_limit: Duration::from_secs(engine.time_limit),
+        }),
+        threads: engine.threads.map_or(0, usize::from),
+        proof: engine.level(),
+        seed: loaded.model.seed,
+    };
+    let assembled = assembly::assemble(&plan, &owners, &options, cancel, &|stage, fraction| {
+        progress.share(stage, fraction);
+    });
+    match assembled {
+        Ok(assembly) => {
+            loaded.timings.extend_from_slice(&assembly.timings);
+            Ok(Built {
+                loaded,
+                plan,
+                assembly,
+            })
+        }
+        Err(error) => {
+            progress.done();
+            Err(match error {
+                AssemblyError::Cancelled => Failure::Interrupted,
+                AssemblyError::Worker {
+                    source: worker::WorkerError::Io(_),
+                    ..
+                } => Failure::Surroundings(error.to_string()),
+                _ => Failure::Unproven(error.to_string()),
+            })
+        }
+    }
+}
+
+/// A folder may be new, empty or an earlier build's; another one needs force.
+fn check_folder(folder: &Path, force: bool) -> Result<(), Failure> {
+    if !folder.exists() {
+        return Ok(());
+    }
+    if !folder.is_dir() {
+        let shown = folder.display();
+        return Err(Failure::Wrong(format!(
+            "{shown} is a file; name a folder with -o"
+        )));
+    }
+    let mut entries =
+        std::fs::read_dir(folder).map_err(|error| Failure::file("read", folder, &error))?;
+    let ours = folder.join(RUN).is_file();
+    if force || ours || entries.next().is_none() {
+        return Ok(());
+    }
+    Err(Failure::Wrong(format!(
+        "the folder {} holds things that are no build of this program; \
+         name another one with -o, or add --force (nothing but the results is replaced)",
+        folder.display()
+    )))
+}
+
+/// What differs from run to run; its presence marks a folder of results.
+const RUN: &str = "run.json";
+
+struct Output<'a> {
+    folder: &'a Path,
+    stem: String,
+    args: &'a Args,
+}
+
+impl Output<'_> {
+    /// Writes everything into a folder of unfinished files, then renames file by file.
+    fn write(
+        &self,
+        built: &Built,
+        report: &Report,
+        writing: Instant,
+        started: Instant,
+    ) -> Result<Vec<String>, Failure> {
+        let failed = |error: std::io::Error| Failure::file("write to", self.folder, &error);
+        let is_new = !self.folder.exists();
+        std::fs::create_dir_all(self.folder).map_err(failed)?;
+        let staging = tempfile::Builder::new()
+            .prefix(".unfinished-")
+            .tempdir_in(self.folder)
+            .map_err(failed)?;
+        interrupt::unfinished_in(Some(if is_new { self.folder } else { staging.path() }));
+        let result = self
+            .write_files(staging.path(), built, report)
+            .and_then(|mut names| {
+                let mut timings = built.loaded.timings.clone();
+                timings.push(("files", writing.elapsed()));
+                let run = run_json(&timings, started.elapsed());
+                std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
+                names.push(RUN.to_owned());
+                for name in &names {
+                    let from = staging.path().join(name);
+                    files::readable(&from).map_err(failed)?;
+                    std::fs::rename(from, self.folder.join(name)).map_err(failed)?;
+                }
+                Ok(names)
+            });
+        drop(staging);
+        if result.is_err() && is_new {
+            drop(std::fs::remove_dir(self.folder));
+        }
+        interrupt::unfinished_in(None);
+        result
+    }
+
+    fn write_files(
+        &self,
+        staging: &Path,
+        built: &Built,
+        report: &Report,
+    ) -> Result<Vec<String>, Failure> {
+        let (model, realisation) = (&built.loaded.model, &built.loaded.realisation);
+        let protocol = self.args.step_schema.into();
+        let mut names = Vec::new();
+        for format in &self.args.formats {
+            let name = match format {
+                Format::Step => format!("{}.step", self.stem),
+                Format::StepShared => format!("{}.shared.step", self.stem),
+                Format::Brep => format!("{}.brep", self.stem),
+            };
+            if names.contains(&name) {
+                continue;
+            }
+            let path = staging.join(&name);
+            match format {
+                Format::Step => {
+                    step::write_assembly(&path, model, realisation, &built.assembly, protocol)
+                }
+                Format::StepShared => {
+                    step::write_shared(&path, model, realisation, &built.assembly, protocol)
+                }
+                Format::Brep => brep::write(&path, &built.assembly),
+            }
+            .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
+            names.push(name);
+        }
+        let csv = table::csv(report).map_err(|error| Failure::Surroundings(error.to_string()))?;
+        let json = report
+            .to_json()
+            .map_err(|error| Failure::Surroundings(error.to_string()))?;
+        for (name, text) in [("volumes.csv", csv), ("report.json", json)] {
+            std::fs::write(staging.join(name), text)
+                .map_err(|error| Failure::file("write to", self.folder, &error))?;
+            names.push(name.to_owned());
+        }
+        Ok(names)
+    }
+}
+
+/// Seconds per stage, peak memory and the machine.
+fn run_json(timings: &[(&'static str, Duration)], total: Duration) -> String {
+    let mut seconds = serde_json::Map::new();
+    for (stage, time) in timings {
+        seconds.insert((*stage).to_owned(), serde_json::json!(time.as_secs_f64()));
+    }
+    seconds.insert("total".to_owned(), serde_json::json!(total.as_secs_f64()));
+    let run = serde_json::json!({
+        "seconds": seconds,
+        "peak_memory_mib": peak_memory_mib(),
+        "processors": std::thread::available_parallelism().map_or(0, usize::from),
+    });
+    format!("{run:#}\n")
+}
+
+/// Peak resident memory of this process, where the system tells (Linux).
+fn peak_memory_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim()
+        .strip_suffix("kB")?
+        .trim()
+        .parse::<f64>()
+        .ok()
+        .map(|kib| kib / 1024.0)
+}
+
+/// Rows of the summary's table of volumes.
+const MOST_ROWS: usize = 30;
+
+fn summary(report: &Report, folder: &Path, written: &[String]) -> String {
+    let mut out = String::new();
+    let mut volumes = comfy_table::Table::new();
+    volumes.load_preset(comfy_table::presets::UTF8_HORIZONTAL_ONLY);
+    volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
+    for volume in report.volumes.iter().take(MOST_ROWS) {
+        volumes.add_row([
+            volume.name.clone(),
+            volume.facies.clone(),
+            volume.solids.len().to_string(),
+            grouped(volume.volume_m3),
+            format!(
+                "{:.3} %",
+                100.0 * volume.volume_m3 / report.domain.volume_m3
+            ),
+        ]);
+    }
+    for column in 2..5 {
+        if let Some(column) = volumes.column_mut(column) {
+            column.set_cell_alignment(comfy_table::CellAlignment::Right);
+        }
+    }
+    let _ = writeln!(out, "{volumes}");
+    if report.volumes.len() > MOST_ROWS {
+        let _ = writeln!(
+            out,
+            "… and {} more in volumes.csv",
+            report.volumes.len() - MOST_ROWS
+        );
+    }
+    for facies in &report.facies {
+        let _ = writeln!(
+            out,
+            "{}: {} m³, {:.2} % in {} connected group{}",
+            facies.name,
+            grouped(facies.volume_m3),
+            100.0 * facies.fraction,
+            facies.connected.len(),
+            if facies.connected.len() == 1 { "" } else { "s" }
+        );
+    }
+    if let Some(net_to_gross) = report.net_to_gross {
+        let _ = writeln!(out, "net-to-gross: {net_to_gross:.4}");
+    }
+    for rejected in &report.rejected_draws {
+        let _ = writeln!(
+            out,
+            "{} draw(s) of {} made again: {}",
+            rejected.count, rejected.feature, rejected.reason
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nproven: {} solids, {} faces, {} pairs of bodies cross; remedy: {}",
+        report.assembly.solids,
+        report.assembly.faces,
+        report.assembly.crossing_pairs,
+        report.assembly.remedy
+    );
+    for check in &report.proof.checks {
+        let _ = writeln!(
+            out,
+            "  {}: {:.3e}, at most {:.3e}",
+            check.name, check.measured, check.bound
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nwrote to {}: {}",
+        folder.display(),
+        written.join(", ")
+    );
+    if let Some(step) = written.iter().find(|name| name.ends_with(".step")) {
+        let path = folder.join(step);
+        let _ = writeln!(
+            out,
+            "next: open {} in FreeCAD or any CAD program",
+            path.display()
+        );
+    }
+    out
+}
+
+/// A whole number with spaces between groups of three digits.
+fn grouped(value: f64) -> String {
+    let digits = format!("{:.0}", value.abs());
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    if value < 0.0 && digits != "0" {
+        format!("−{out}")
+    } else {
+        out
+    }
+}

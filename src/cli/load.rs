@@ -1,0 +1,68 @@
+//! Loading: from a model file to a realisation, with every defect told.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use super::args::ModelArgs;
+use super::failure::Failure;
+use crate::model::owner::Owners;
+use crate::model::realisation::Realisation;
+use crate::model::{Model, ReadError, Source};
+
+/// A model with its draws made.
+pub(super) struct Loaded {
+    pub(super) model: Model,
+    pub(super) realisation: Realisation,
+    /// Seconds per stage.
+    #[cfg_attr(
+        not(feature = "occt"),
+        expect(dead_code, reason = "only builds tell their times")
+    )]
+    pub(super) timings: Vec<(&'static str, Duration)>,
+}
+
+/// Reads and checks a model; `json` adds the defects as JSON on standard output.
+pub(super) fn model(args: &ModelArgs, json: bool) -> Result<Model, Failure> {
+    let mut source = Source::read(&args.model).map_err(|error| match &error {
+        ReadError::Io { source, .. } => Failure::Surroundings(format!("{error}: {source}")),
+        _ => Failure::Wrong(error.to_string()),
+    })?;
+    for assignment in &args.set {
+        source.set(assignment.clone());
+    }
+    if let Some(seed) = args.seed {
+        source.set(format!("seed={seed}"));
+    }
+    let model = Model::check(&source).map_err(|defects| Failure::WrongModel {
+        text: defects.render(std::io::stderr().is_terminal()),
+        json: json.then(|| defects.to_json().to_string()),
+    })?;
+    args.selection()
+        .check(&model)
+        .map_err(|error| Failure::Wrong(error.to_string()))?;
+    Ok(model)
+}
+
+/// The same, with the draws made and the surfaces built.
+pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
+    let started = Instant::now();
+    let model = model(args, json)?;
+    let reading = started.elapsed();
+    let started = Instant::now();
+    let realisation = Realisation::new(&model, &args.selection())
+        .map_err(|error| Failure::Wrong(error.to_string()))?;
+    let timings = vec![("model file", reading), ("surfaces", started.elapsed())];
+    Ok(Loaded {
+        model,
+        realisation,
+        timings,
+    })
+}
+
+impl Loaded {
+    /// The point evaluator.
+    pub(super) fn owners(&self) -> Result<Owners, Failure> {
+        Owners::new(&self.realisation, &self.model.domain)
+            .map_err(|error| Failure::Wrong(error.to_string()))
+    }
+}

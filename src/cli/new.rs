@@ -1,0 +1,55 @@
+//! `clinothem new`: a model file to start from.
+
+use std::path::PathBuf;
+
+use super::failure::Failure;
+use super::{files, print};
+use crate::model::{TEMPLATES, Template};
+
+/// Write a model file to start from.
+///
+/// Without a template, lists them.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  clinothem new                          the templates
+  clinothem new quickstart               write quickstart.toml
+  clinothem new channel-belt belt.toml   write belt.toml")]
+pub(super) struct Args {
+    /// The template's name.
+    template: Option<String>,
+    /// Where to write it; TEMPLATE.toml if not given.
+    file: Option<PathBuf>,
+    /// Replace the file if it exists.
+    #[arg(long)]
+    force: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let Some(name) = &args.template else {
+        for template in &TEMPLATES {
+            print::out(&format!("{:14} {}", template.name, template.about));
+        }
+        return Ok(());
+    };
+    let Some(template) = Template::find(name) else {
+        let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+        return Err(Failure::Wrong(format!(
+            "there is no template `{name}`; there are {}",
+            names.join(", ")
+        )));
+    };
+    let path = args
+        .file
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+    if path.exists() && !args.force {
+        return Err(Failure::Wrong(format!(
+            "{} exists already; name another file, or add --force to replace it",
+            path.display()
+        )));
+    }
+    files::write(&path, template.text.as_bytes())?;
+    let shown = path.display();
+    print::out(&format!("wrote {shown}; next: clinothem build {shown}"));
+    Ok(())
+}

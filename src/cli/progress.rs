@@ -1,0 +1,61 @@
+//! Progress on standard error: a bar per stage; silent if it is no terminal.
+
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::assembly::Stage;
+
+/// A bar that shows the stage, its share and the time it takes.
+pub(super) struct Progress {
+    bar: ProgressBar,
+}
+
+/// Steps of a stage's bar.
+const STEPS: u64 = 100;
+
+impl Progress {
+    /// Hidden when quiet, or when standard error is no terminal.
+    pub(super) fn new(quiet: bool) -> Self {
+        let target = if quiet {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
+        let style = ProgressStyle::with_template("{msg:12} [{bar:30}] {percent:>3} %  {elapsed}");
+        bar.set_style(
+            style
+                .unwrap_or_else(|_| ProgressStyle::default_bar())
+                .progress_chars("=> "),
+        );
+        bar.enable_steady_tick(Duration::from_millis(250));
+        Self { bar }
+    }
+
+    /// A stage that has no share.
+    pub(super) fn stage(&self, name: &'static str) {
+        self.bar.set_message(name);
+        self.bar.set_position(0);
+    }
+
+    /// A stage's share, from any thread.
+    pub(super) fn share(&self, stage: Stage, fraction: f64) {
+        self.bar.set_message(match stage {
+            Stage::Fuse => "assembling",
+            Stage::Prove => "proving",
+        });
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped"
+        )]
+        self.bar
+            .set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+
+    /// Removes the bar.
+    pub(super) fn done(&self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,178 @@
+//! `clinothem view`: a picture of the model in three dimensions.
+
+use std::path::PathBuf;
+
+use glam::DVec3;
+
+use super::args::{ModelArgs, finite, numbers};
+use super::build::{self, EngineArgs};
+use super::failure::Failure;
+use super::load::{self, Loaded};
+use super::progress::Progress;
+use super::{interrupt, picture};
+use crate::export::mesh;
+use crate::export::picture::view::{Box3, Camera, Cut, Part, Projection, Scene};
+use crate::model::rules::BACKGROUND;
+
+/// Draw the model in three dimensions as PNG: its solids, or a block coloured by the point evaluator.
+///
+/// Needs no display.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  clinothem view belt.toml                              bodies in the outline of the domain
+  clinothem view belt.toml --below                      the same from below
+  clinothem view belt.toml --style block --cut 500,500  a block diagram with a corner cut away")]
+pub(super) struct Args {
+    #[command(flatten)]
+    model: ModelArgs,
+    /// What to draw.
+    #[arg(long, value_enum, default_value_t)]
+    style: Style,
+    /// Look from below.
+    #[arg(long)]
+    below: bool,
+    /// Bearing from which to look, clockwise from north (180 = from the south).
+    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_negative_numbers = true)]
+    azimuth_deg: Option<f64>,
+    /// Height of the eye above the horizontal; negative looks from below.
+    #[arg(long, value_name = "DEGREES", value_parser = finite, allow_negative_numbers = true, conflicts_with = "below")]
+    elevation_deg: Option<f64>,
+    /// How many times elevations are stretched.
+    #[arg(long, value_name = "TIMES", value_parser = finite, default_value = "5")]
+    exaggeration: f64,
+    /// Cut away the corner nearest to the eye, to this easting and northing (m).
+    #[arg(long, value_name = "X,Y", value_parser = numbers::<2>, allow_hyphen_values = true)]
+    cut: Option<[f64; 2]>,
+    /// Draw in perspective.
+    #[arg(long)]
+    perspective: bool,
+    /// Where to write; MODEL-view.png if not given.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WIDTH,HEIGHT", value_parser = pixels, default_value = "1600,1000")]
+    size: [u32; 2],
+    #[command(flatten)]
+    engine: EngineArgs,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Style {
+    /// The assembled solids of all bodies, the background left open.
+    #[default]
+    Solids,
+    /// A block whose faces are coloured by the point evaluator; no kernel is used.
+    Block,
+}
+
+fn pixels(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || format!("`{text}` is not two whole numbers separated by a comma");
+    let parts: Vec<u32> = text
+        .split(',')
+        .map(|part| part.trim().parse().map_err(|_| wrong()))
+        .collect::<Result<_, _>>()?;
+    parts.try_into().map_err(|_| wrong())
+}
+
+/// Largest distance of triangles from the surfaces, as a fraction of the domain's diagonal.
+const DEFLECTION: f64 = 2e-4;
+/// The eye's distance in perspective, in diagonals.
+const DISTANCE: f64 = 3.0;
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let output = args
+        .output
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}-view.png", args.model.stem())));
+    if picture::is_svg(&output)? {
+        return Err(Failure::Wrong(
+            "a view is a PNG; name the file .png".to_owned(),
+        ));
+    }
+    let loaded = load::realise(&args.model, false)?;
+    let owners = loaded.owners()?;
+    let (volumes, legend) = picture::key(&loaded);
+    let (low, high) = owners.domain();
+    let camera = camera(args);
+    let (parts, loaded) = match args.style {
+        Style::Block => (Vec::new(), loaded),
+        Style::Solids => solids(args, loaded)?,
+    };
+    let cut = args.cut.map(|at| corner(at, &camera, low, high));
+    let scene = Scene {
+        title: loaded.model.name.clone(),
+        subtitle: format!("seed {}", loaded.model.seed),
+        domain: Box3 { low, high },
+        parts,
+        volumes,
+        legend,
+        camera,
+        cut,
+    };
+    let shown = |point: DVec3| {
+        let owner = owners.at(point)?;
+        // Among solids the background stays open, so that they can be seen.
+        let open = args.style == Style::Solids && owner == BACKGROUND;
+        if open {
+            None
+        } else {
+            u32::try_from(owner).ok()
+        }
+    };
+    let bytes = scene
+        .png(args.size[0], args.size[1], Some(&shown))
+        .map_err(|error| picture::refused(&error))?;
+    picture::write(&output, &bytes)
+}
+
+fn camera(args: &Args) -> Camera {
+    let mut camera = if args.below {
+        Camera::from_below(args.exaggeration)
+    } else {
+        Camera::from_above(args.exaggeration)
+    };
+    camera.azimuth_deg = args.azimuth_deg.unwrap_or(camera.azimuth_deg);
+    camera.elevation_deg = args.elevation_deg.unwrap_or(camera.elevation_deg);
+    if args.perspective {
+        camera.projection = Projection::Perspective { distance: DISTANCE };
+    }
+    camera
+}
+
+/// The corner of the domain that faces the eye, as far as a point.
+fn corner(at: [f64; 2], camera: &Camera, low: DVec3, high: DVec3) -> Cut {
+    let azimuth = camera.azimuth_deg.to_radians();
+    let side = |towards: f64, low: f64, high: f64, at: f64| {
+        if towards > 0.0 { [at, high] } else { [low, at] }
+    };
+    let x = side(azimuth.sin(), low.x, high.x, at[0]);
+    let y = side(azimuth.cos(), low.y, high.y, at[1]);
+    Cut::Corner {
+        low: DVec3::new(x[0], y[0], low.z),
+        high: DVec3::new(x[1], y[1], high.z),
+    }
+}
+
+/// The solids of all bodies as parts.
+fn solids(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure> {
+    let cancel = interrupt::cancel()?;
+    let progress = Progress::new(args.engine.quiet);
+    let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
+    progress.stage("drawing");
+    let deflection = DEFLECTION * built.plan.low.distance(built.plan.high);
+    let meshes = mesh::triangulate(&built.assembly, deflection)
+        .map_err(|error| Failure::Surroundings(error.to_string()))?;
+    progress.done();
+    let parts = meshes
+        .into_iter()
+        .filter(|mesh| mesh.volume != BACKGROUND)
+        .map(|mesh| Part {
+            volume: mesh.volume,
+            positions: mesh.positions,
+            normals: Some(mesh.normals),
+            triangles: mesh.triangles,
+            opacity: 1.0,
+        })
+        .collect();
+    Ok((parts, built.loaded))
+}
