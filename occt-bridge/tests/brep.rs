@@ -10,8 +10,8 @@ use std::fs;
 use std::path::Path;
 
 use occt_bridge::{
-    BridgeError, Cancel, PartitionOptions, ShapeKind, box_solid, compound, partition, read_brep,
-    version, volume, write_brep,
+    BridgeError, Cancel, PartitionOptions, ShapeKind, Solids, Threads, box_solid, compound,
+    defects, partition, read_brep, version, volume, write_brep,
 };
 
 #[test]
@@ -75,5 +75,31 @@ fn the_version_is_one_that_the_build_accepts() {
     let text = version();
     let mut numbers = text.split('.').map(|n| n.parse::<u32>().unwrap_or(0));
     let found = (numbers.next().unwrap(), numbers.next().unwrap());
-    assert!(found >= (7, 6) && found < (8, 0), "{text}");
+    assert!(((7, 6)..(8, 0)).contains(&found), "{text}");
+}
+
+#[test]
+fn a_vertex_that_is_off_its_edges_is_a_defect_of_its_solid() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.brep");
+    let good = box_solid([0.0; 3], [1.0; 3]).unwrap();
+    write_brep(&path, &good).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    let (head, rest) = text.split_once("Ve\n1e-07\n").unwrap();
+    let (_, tail) = rest.split_once('\n').unwrap();
+    fs::write(&path, format!("{head}Ve\n1e-07\n0.1 0.2 0.3\n{tail}")).unwrap();
+    let broken = read_brep(&path).unwrap();
+    let sound = box_solid([5.0; 3], [6.0; 3]).unwrap();
+    let solids = Solids::from_shapes(&[sound, broken]).unwrap();
+    for threads in [Threads::One, Threads::All] {
+        let found = defects(&solids, threads).unwrap();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].solid, Some(1));
+        assert!(found[0].what.contains("vertex"), "{found:?}");
+    }
+    assert!(
+        defects(&Solids::from_shapes(&[good]).unwrap(), Threads::All)
+            .unwrap()
+            .is_empty()
+    );
 }
