@@ -17,10 +17,12 @@
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <Standard_Version.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepBasic_ProductDefinition.hxx>
 #include <StepBasic_ProductDefinitionFormation.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_CartesianPoint.hxx>
 #include <StepRepr_CharacterizedDefinition.hxx>
 #include <StepRepr_NextAssemblyUsageOccurrence.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
@@ -29,6 +31,7 @@
 #include <StepRepr_RepresentedDefinition.hxx>
 #include <StepShape_ShapeDefinitionRepresentation.hxx>
 #include <StepShape_ShellBasedSurfaceModel.hxx>
+#include <StepShape_VertexPoint.hxx>
 #include <StepVisual_MechanicalDesignGeometricPresentationRepresentation.hxx>
 #include <TCollection_ExtendedString.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -37,6 +40,7 @@
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TransferBRep.hxx>
 #include <TransferBRep_ShapeMapper.hxx>
@@ -82,6 +86,13 @@ void prepare(bool ap242, bool shared_faces, const rust::String& product) {
   set("read.step.nonmanifold", 1);
   set("write.surfacecurve.mode", 1);
   set("write.step.product.name", std::string(product).c_str());
+}
+
+// Since 7.8 the model scales by its own unit, whatever the process-wide parameter says (millimetres for a metre).
+void declare_metres([[maybe_unused]] const Handle(StepData_StepModel)& model) {
+#if OCC_VERSION_HEX >= 0x070800
+  model->SetWriteLengthUnit(1000.0);
+#endif
 }
 
 class Document {
@@ -178,6 +189,26 @@ Handle(StepBasic_Product) product_of(const Handle(Transfer_FinderProcess)& proce
   return definition->Formation()->OfProduct();
 }
 
+// The numbers in the file must be those of the model: how the kernel scales depends on its version and on process-wide state.
+void check_scale(const Handle(StepData_StepModel)& model, const std::vector<TopoDS_Shape>& shapes) {
+  double given = 0.0;
+  for (const TopoDS_Shape& shape : shapes)
+    for (TopExp_Explorer it(shape, TopAbs_VERTEX); it.More(); it.Next()) {
+      const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
+      for (double x : {p.X(), p.Y(), p.Z()}) given = std::max(given, std::abs(x));
+    }
+  double written = 0.0;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto vertex = Handle(StepShape_VertexPoint)::DownCast(model->Value(i));
+    if (vertex.IsNull()) continue;
+    const auto point = Handle(StepGeom_CartesianPoint)::DownCast(vertex->VertexGeometry());
+    if (point.IsNull()) continue;
+    for (int k = 1; k <= point->NbCoordinates(); ++k) written = std::max(written, std::abs(point->CoordinatesValue(k)));
+  }
+  if (std::abs(given - written) > 1e-9 * given)
+    throw Refused("the largest coordinate is " + std::to_string(given) + " m, but " + std::to_string(written) + " would be written");
+}
+
 void write_file(STEPControl_Writer& writer, const std::string& path) {
   {
     const std::ofstream probe(path, std::ios::binary | std::ios::app);
@@ -232,6 +263,7 @@ void write_assembly(rust::Str path, const StepHeader& header, const rust::Vec<St
   writer.SetNameMode(Standard_True);
   writer.SetLayerMode(Standard_True);
   writer.SetPropsMode(Standard_False);
+  declare_metres(writer.ChangeWriter().Model());
   if (!writer.Transfer(document.get(), STEPControl_AsIs)) throw Refused("the document could not be translated to STEP");
 
   const Handle(XSControl_WorkSession) session = writer.ChangeWriter().WS();
@@ -248,6 +280,7 @@ void write_assembly(rust::Str path, const StepHeader& header, const rust::Vec<St
   }
   const Handle(StepData_StepModel) model = writer.ChangeWriter().Model();
   order_styles(session, model);
+  check_scale(model, shapes.shapes);
   renumber_occurrences(model);
   write_header(model, header);
   write_file(writer.ChangeWriter(), std::string(path));
@@ -268,6 +301,7 @@ void write_shared(rust::Str path, const StepHeader& header, const ShapeHandle& s
   }
   prepare(header.ap242, true, header.name);
   STEPControl_Writer writer;
+  declare_metres(writer.Model());
   if (writer.Transfer(shape.shape, STEPControl_AsIs) != IFSelect_RetDone) throw Refused("the shape could not be translated to STEP");
   const Handle(StepData_StepModel) model = writer.Model();
   // The kernel writes each solid as its closed shell.
@@ -279,6 +313,7 @@ void write_shared(rust::Str path, const StepHeader& header, const ShapeHandle& s
   if (items.size() != static_cast<std::size_t>(solids.Extent()))
     throw Refused(std::to_string(solids.Extent()) + " solids became " + std::to_string(items.size()) + " closed shells");
   for (std::size_t i = 0; i < names.size(); ++i) items[i]->SetName(shared(names[i]));
+  check_scale(model, {shape.shape});
   write_header(model, header);
   write_file(writer, std::string(path));
 }

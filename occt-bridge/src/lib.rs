@@ -33,6 +33,7 @@ mod partition;
 mod shape;
 mod solids;
 mod step;
+mod tables;
 mod topology;
 
 pub use brep::{read_brep, write_brep};

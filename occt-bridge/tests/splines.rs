@@ -9,7 +9,7 @@
 mod bodies;
 
 use std::f64::consts::PI;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use bodies::{Course, cylinder_topology, ellipsoid_topology};
@@ -152,6 +152,12 @@ fn belt() -> Vec<Shape> {
 
 const BLOCK: f64 = 6e7;
 
+/// The belt, cut and merged once for all tests.
+fn belt_solids() -> &'static Solids {
+    static SOLIDS: OnceLock<Solids> = OnceLock::new();
+    SOLIDS.get_or_init(|| youngest_in_first(&cut(&belt())))
+}
+
 #[test]
 fn crossing_channels_fill_the_block_exactly_and_pass_every_check() {
     let seen = Mutex::new(Vec::new());
@@ -210,7 +216,7 @@ fn crossing_channels_fill_the_block_exactly_and_pass_every_check() {
 
 #[test]
 fn solids_go_through_bytes_exactly() {
-    let solids = youngest_in_first(&cut(&belt()));
+    let solids = belt_solids();
     let bytes = solids.to_bytes().unwrap();
     let back = Solids::from_bytes(&bytes).unwrap();
     assert_eq!(solids.solids(), back.solids());
@@ -219,7 +225,7 @@ fn solids_go_through_bytes_exactly() {
     assert!(back.to_bytes().unwrap() == bytes);
     let integrals =
         |s: &Solids| face_integrals(s, 1e-9, [500.0, 500.0, -30.0], Threads::All).unwrap();
-    assert_eq!(integrals(&solids), integrals(&back));
+    assert_eq!(integrals(solids), integrals(&back));
     assert!(defects(&back, Threads::All).unwrap().is_empty());
     // Faces are numbered the same way in the shapes and in the tables.
     let of_face = integrals(&back);
@@ -293,9 +299,9 @@ fn a_partition_that_is_cancelled_while_it_runs_returns_soon() {
 
 #[test]
 fn samples_lie_on_their_face_with_its_solids_on_either_side() {
-    let solids = youngest_in_first(&cut(&belt()));
-    let samples = face_samples(&solids, 3, Threads::All).unwrap();
-    assert_eq!(samples, face_samples(&solids, 3, Threads::One).unwrap());
+    let solids = belt_solids();
+    let samples = face_samples(solids, 3, Threads::All).unwrap();
+    assert_eq!(samples, face_samples(solids, 3, Threads::One).unwrap());
     let mut classifiers: Vec<_> = (0..solids.solids().len())
         .map(|i| Classifier::new(&solids.shape_of(i).unwrap()).unwrap())
         .collect();
@@ -328,7 +334,7 @@ fn samples_lie_on_their_face_with_its_solids_on_either_side() {
         }
     }
     assert!(sampled.iter().all(|n| *n >= 1), "{sampled:?}");
-    assert!(face_samples(&solids, 0, Threads::All).unwrap().is_empty());
+    assert!(face_samples(solids, 0, Threads::All).unwrap().is_empty());
 }
 
 #[test]
@@ -387,7 +393,7 @@ fn triangles_close_a_solid_and_come_near_its_volume() {
     }
     // The same twice, and on one thread.
     assert_eq!(mesh, triangulate(&shape, &options).unwrap());
-    let solids = youngest_in_first(&cut(&belt()));
+    let solids = belt_solids();
     let options = MeshOptions {
         deflection: 0.5,
         angle: 0.4,
@@ -397,9 +403,9 @@ fn triangles_close_a_solid_and_come_near_its_volume() {
         threads: Threads::One,
         ..options
     };
-    let meshes = triangulate_solids(&solids, &options).unwrap();
+    let meshes = triangulate_solids(solids, &options).unwrap();
     assert_eq!(meshes.len(), solids.faces().len());
-    assert_eq!(meshes, triangulate_solids(&solids, &one).unwrap());
+    assert_eq!(meshes, triangulate_solids(solids, &one).unwrap());
     assert!(
         triangulate(
             &shape,

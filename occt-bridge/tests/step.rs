@@ -6,6 +6,9 @@
     reason = "tests"
 )]
 
+mod bodies;
+
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -141,7 +144,9 @@ fn the_file_declares_metres_and_its_numbers_are_metres() {
         let text = written(&document);
         assert!(text.contains("SI_UNIT($,.METRE.)"));
         assert!(!text.contains(".MILLI.,.METRE."));
-        assert!(text.contains("(1.E+03,") || text.contains("(1000.,"));
+        // The corner that the two boxes share, and nothing a thousand times further or nearer.
+        assert!(text.contains("(1.E+03,10.,10.)"));
+        assert!(!text.contains("E+06") && !text.contains("(1.,1.E-02,1.E-02)"));
         let name = if schema == StepSchema::Ap214 {
             "AUTOMOTIVE_DESIGN"
         } else {
@@ -249,6 +254,7 @@ fn the_shared_flavour_keeps_a_common_face_and_the_assembly_does_not() {
     }
     assert_eq!(count(&path), (2, 11));
     let text = fs::read_to_string(&path).unwrap();
+    assert!(text.contains("(1.E+03,10.,10.)"));
     assert!(text.contains("'sand'") && text.contains("SI_UNIT($,.METRE.)"));
     let assembly = document(vec![
         part("plain", [1, 2, 3], vec![solids.shape_of(0).unwrap()]),
@@ -256,6 +262,116 @@ fn the_shared_flavour_keeps_a_common_face_and_the_assembly_does_not() {
     ]);
     write_step_assembly(&path, &assembly).unwrap();
     assert_eq!(count(&path), (2, 12));
+}
+
+/// Entities of a STEP file by number.
+fn entities(text: &str) -> BTreeMap<usize, String> {
+    let data = &text[text.find("DATA;").unwrap() + 5..];
+    data.split(";\n")
+        .filter_map(|line| {
+            let (number, body) = line.trim().strip_prefix('#')?.split_once('=')?;
+            Some((number.trim().parse().ok()?, body.replace(['\n', ' '], "")))
+        })
+        .collect()
+}
+
+/// References of an entity, in order.
+fn references(body: &str) -> Vec<usize> {
+    body.split('#')
+        .skip(1)
+        .map(|rest| {
+            let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap();
+            rest[..digits].parse().unwrap()
+        })
+        .collect()
+}
+
+/// An entity with everything it refers to written in its place.
+fn expanded(entities: &BTreeMap<usize, String>, number: usize) -> String {
+    let body = &entities[&number];
+    let mut out = String::new();
+    for (i, piece) in body.split('#').enumerate() {
+        if i == 0 {
+            out.push_str(piece);
+            continue;
+        }
+        let digits = piece.find(|c: char| !c.is_ascii_digit()).unwrap();
+        out.push_str(&expanded(entities, piece[..digits].parse().unwrap()));
+        out.push_str(&piece[digits..]);
+    }
+    out
+}
+
+#[test]
+fn the_two_copies_of_a_face_in_an_assembly_are_the_same_to_the_last_digit() {
+    let course = |y: f64, phase: f64, top: f64| {
+        bodies::Course {
+            x: [-60.0, 560.0],
+            y,
+            slope: 0.1,
+            amplitude: 60.0,
+            wavelength: 400.0,
+            phase,
+            top,
+            width: 50.0,
+            depth: 6.0,
+            stations: 20,
+            segments: 2,
+        }
+        .solid()
+    };
+    let arguments = [
+        box_solid([0.0, 0.0, -40.0], [500.0, 500.0, 0.0]).unwrap(),
+        course(200.0, 0.3, -15.0),
+        course(240.0, 2.5, -13.0),
+    ];
+    let p = partition(
+        &arguments,
+        &PartitionOptions::default(),
+        &Cancel::new(),
+        &|_| (),
+    )
+    .unwrap();
+    let owner: Vec<_> = p
+        .cells()
+        .iter()
+        .map(|c| c.inside.contains(&0).then(|| *c.inside.last().unwrap()))
+        .collect();
+    let solids = p.merge(&owner).unwrap();
+    let shared = solids
+        .faces()
+        .iter()
+        .filter(|f| f.solids.len() == 2)
+        .count();
+    assert!(shared > 8);
+    let parts = (0..solids.solids().len())
+        .map(|i| part(&format!("p{i}"), [7; 3], vec![solids.shape_of(i).unwrap()]));
+    let text = written(&document(parts.collect()));
+    let all = entities(&text);
+    // Per face: its surface, its vertices and the curves of its edges in space. (Curves on surfaces name the neighbours, which differ.)
+    let mut copies: BTreeMap<String, usize> = BTreeMap::new();
+    for body in all.values().filter(|b| b.starts_with("ADVANCED_FACE(")) {
+        let of_face = references(body);
+        let (surface, bounds) = of_face.split_last().unwrap();
+        let mut edges = Vec::new();
+        for bound in bounds {
+            let edge_loop = references(&all[bound])[0];
+            for oriented in references(&all[&edge_loop]) {
+                let edge = references(&all[&oriented])[0];
+                let [a, b, curve] = references(&all[&edge])[..] else {
+                    panic!("{}", all[&edge])
+                };
+                let in_space = references(&all[&curve])[0];
+                edges.push([a, b, in_space].map(|n| expanded(&all, n)).join("|"));
+            }
+        }
+        edges.sort();
+        *copies
+            .entry(format!("{}|{}", expanded(&all, *surface), edges.join("|")))
+            .or_default() += 1;
+    }
+    assert_eq!(copies.values().filter(|n| **n == 2).count(), shared);
+    assert_eq!(copies.len(), solids.faces().len());
 }
 
 #[test]
