@@ -50,7 +50,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 fn resolve(loaded: &Loaded) -> Vec<Line> {
     let volumes = &loaded.realisation.volumes;
     let rules = &loaded.realisation.rules;
-    let of = |feature: &str| (1..volumes.len()).filter(move |v| volumes[*v].feature == feature);
+    let of = |feature: &str| -> Vec<usize> {
+        (1..volumes.len())
+            .filter(|volume| volumes[*volume].feature == feature)
+            .collect()
+    };
     let mut features: Vec<&str> = Vec::new();
     for volume in &volumes[1..] {
         if !features.contains(&volume.feature.as_str()) {
@@ -60,14 +64,17 @@ fn resolve(loaded: &Loaded) -> Vec<Line> {
     let line = |feature: &&str| {
         let feature = *feature;
         // The youngest instance: it has met every other.
-        let body = of(feature).last().unwrap_or(0);
+        let body = of(feature).last().copied().unwrap_or(0);
         let (mut removes, mut spared) = (Vec::new(), Vec::new());
         let holders = std::iter::once("background").chain(features.iter().copied());
         for holder in holders {
             let older = if holder == "background" {
                 Some(0)
             } else {
-                of(holder).take_while(|volume| *volume < body).last()
+                of(holder)
+                    .into_iter()
+                    .take_while(|volume| *volume < body)
+                    .last()
             };
             let Some(older) = older else { continue };
             let name = if holder == feature {
@@ -86,7 +93,7 @@ fn resolve(loaded: &Loaded) -> Vec<Line> {
             kind: first.kind.clone(),
             level: first.level,
             facies: first.facies.clone(),
-            instances: of(feature).count(),
+            instances: of(feature).len(),
             parent: first.parent.map(|parent| volumes[parent].feature.clone()),
             removes,
             spared,

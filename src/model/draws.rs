@@ -6,7 +6,7 @@ use super::distribution::Distribution;
 use super::expression::Expression;
 use super::profile::Profile as ProfileSpec;
 use super::quantity::Quantity;
-use super::spec::{self, ChannelSpec, Domain, SectionOrigin, TrajectorySpec};
+use super::spec::{ChannelSpec, Domain, SectionOrigin, TrajectorySpec};
 use super::stream::Stream;
 use crate::features::body::Trough;
 use crate::features::channel::{ChannelDesign, Origin};
@@ -19,39 +19,39 @@ const OVERSHOOT: f64 = 0.05;
 
 /// What identifies the draws of one attempt.
 #[derive(Clone, Copy, Debug)]
-pub struct Key<'a> {
+pub(super) struct Key<'a> {
     /// The model's seed.
-    pub seed: u64,
+    pub(super) seed: u64,
     /// The feature's id.
-    pub feature: &'a str,
+    pub(super) feature: &'a str,
     /// Numbers of the instance and its ancestors.
-    pub instance: &'a str,
+    pub(super) instance: &'a str,
     /// Attempt, from 0.
-    pub attempt: u32,
+    pub(super) attempt: u32,
 }
 
 /// A channel that could be built.
 #[derive(Clone, Debug)]
-pub struct DrawnChannel {
+pub(super) struct DrawnChannel {
     /// Its shell.
-    pub body: Trough,
+    pub(super) body: Trough,
     /// The numbers drawn, by parameter.
-    pub drawn: Vec<(String, f64)>,
+    pub(super) drawn: Vec<(String, f64)>,
 }
 
 /// An attempt that makes no surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rejected {
+pub(super) struct Rejected {
     /// The reason in a few words, the same for all like it.
-    pub reason: &'static str,
+    pub(super) reason: &'static str,
     /// The reason in full, with numbers.
-    pub message: String,
+    pub(super) message: String,
     /// How many numbers were drawn at random: 0 means that another attempt gives the same.
-    pub drawn: usize,
+    pub(super) drawn: usize,
 }
 
 /// Draws and builds a channel.
-pub fn channel(
+pub(super) fn channel(
     spec: &ChannelSpec,
     domain: &Domain,
     key: Key<'_>,

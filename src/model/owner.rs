@@ -71,7 +71,7 @@ impl Owners {
         };
         let shells = realisation
             .instances
-            .iter()
+            .par_iter()
             .map(shell)
             .collect::<Result<_, _>>()?;
         let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
