@@ -45,7 +45,7 @@ def path_of(part):
 def check_tree(report, volumes, parts, found):
     found.expect(parts.keys() == volumes.keys(), f"the parts are {sorted(parts)}, not {sorted(volumes)}")
     features = [v["feature"] for v in volumes.values()]
-    for name in parts.keys() & volumes.keys():
+    for name in sorted(parts.keys() & volumes.keys()):
         volume = volumes[name]
         if volume["parent"] is None:
             wanted = [report["model"]["name"], *([volume["feature"]] if features.count(volume["feature"]) > 1 else [])]
@@ -56,7 +56,7 @@ def check_tree(report, volumes, parts, found):
 def check_shapes(report, volumes, parts, found):
     total, count, worst = 0.0, 0, 0.0
     corners = []
-    for name in parts.keys() & volumes.keys():
+    for name in sorted(parts.keys() & volumes.keys()):
         shape, promised = parts[name].Shape, volumes[name]["solids"]
         found.expect(shape.isValid(), f"{name} is not valid")
         found.expect(len(shape.Solids) == len(promised), f"{name} has {len(shape.Solids)} solids, not {len(promised)}")
@@ -82,7 +82,7 @@ def check_shapes(report, volumes, parts, found):
 
 
 def check_colors(volumes, parts, found):
-    for name in parts.keys() & volumes.keys():
+    for name in sorted(parts.keys() & volumes.keys()):
         wanted = tuple(bytes.fromhex(volumes[name]["color"].lstrip("#")))
         # A part of several solids is coloured face by face.
         seen = {tuple(round(255 * c) for c in color[:3]) for color in parts[name].ViewObject.DiffuseColor}
