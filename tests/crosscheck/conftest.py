@@ -84,6 +84,21 @@ class Build:
         """(volume's name, m³) of all solids in the order of the shared shape."""
         return [(v.name, size) for v in self.volumes.values() for size in v.solids]
 
+    @cached_property
+    def pieces(self):
+        """Volumes by the names of their solids."""
+        return {s["name"]: v["name"] for v in self.report["volumes"] for s in v["solids"]}
+
+    def volume_of(self, part):
+        """A part of the assembly is a volume, or a piece of one that has several."""
+        return self.volumes[part if part in self.volumes else self.pieces[part]]
+
+    def are_parts(self, names):
+        """Whether these are all parts: each volume once, or in its stead each of its pieces once."""
+        whole = [name for name in names if name in self.volumes]
+        wanted = whole + [piece for piece, volume in self.pieces.items() if volume not in whole]
+        return sorted(names) == sorted(wanted)
+
     @property
     def domain(self):
         return self.report["domain"]

@@ -42,33 +42,50 @@ def path_of(part):
     return [*path_of(above[0]), above[0].Label] if above else []
 
 
-def check_tree(report, volumes, parts, found):
-    found.expect(parts.keys() == volumes.keys(), f"the parts are {sorted(parts)}, not {sorted(volumes)}")
+def check_names(volumes, parts, found):
+    """A part is a volume, or a piece of one that has several: the parts by volume."""
+    pieces = {s["name"]: name for name, v in volumes.items() for s in v["solids"]}
+    by_volume = {name: [] for name in volumes}
+    for label, part in parts.items():
+        name = label if label in volumes else pieces.get(label)
+        found.expect(name is not None, f"there is a part named {label}")
+        if name is not None:
+            by_volume[name].append(part)
+    for name, own in by_volume.items():
+        labels = sorted(part.Label for part in own)
+        wanted = sorted(s["name"] for s in volumes[name]["solids"])
+        found.expect(labels in ([name], wanted), f"the parts of {name} are {labels}, not {wanted}")
+    return by_volume
+
+
+def check_tree(report, volumes, by_volume, found):
     features = [v["feature"] for v in volumes.values()]
-    for name in sorted(parts.keys() & volumes.keys()):
+    for name, own in by_volume.items():
         volume = volumes[name]
         if volume["parent"] is None:
-            wanted = [report["model"]["name"], *([volume["feature"]] if features.count(volume["feature"]) > 1 else [])]
-            path = path_of(parts[name])
-            found.expect(path[: len(wanted)] == wanted, f"{name} is below {path}, not {wanted}")
+            wanted = [report["model"]["name"], volume["feature"] if features.count(volume["feature"]) > 1 else name]
+            for part in own:
+                path = [*path_of(part), part.Label]
+                found.expect(path[:2] == wanted, f"{part.Label} is {path}, not below {wanted}")
 
 
-def check_shapes(report, volumes, parts, found):
+def check_shapes(report, volumes, by_volume, found):
     total, count, worst = 0.0, 0, 0.0
     corners = []
-    for name in sorted(parts.keys() & volumes.keys()):
-        shape, promised = parts[name].Shape, volumes[name]["solids"]
-        found.expect(shape.isValid(), f"{name} is not valid")
-        found.expect(len(shape.Solids) == len(promised), f"{name} has {len(shape.Solids)} solids, not {len(promised)}")
-        found.expect(all(s.isClosed() for s in shape.Shells), f"{name} has an open shell")
-        sizes = sorted(s.Volume / MM**3 for s in shape.Solids)
+    for name, own in by_volume.items():
+        promised = volumes[name]["solids"]
+        for part in own:
+            found.expect(part.Shape.isValid(), f"{part.Label} is not valid")
+            found.expect(all(s.isClosed() for s in part.Shape.Shells), f"{part.Label} has an open shell")
+            corners.extend(v.Point for v in part.Shape.Vertexes)
+        sizes = sorted(s.Volume / MM**3 for part in own for s in part.Shape.Solids)
+        found.expect(len(sizes) == len(promised), f"{name} has {len(sizes)} solids, not {len(promised)}")
         for size, told in zip(sizes, sorted(s["volume_m3"] for s in promised)):
             # A tiny piece is known no better than its boundary: ten litres.
             found.expect(abs(size - told) <= max(ROUGH * told, 0.01), f"a solid of {name} has {size} m³, not {told}")
             worst = max(worst, abs(size / told - 1))
         total += sum(sizes)
         count += len(sizes)
-        corners.extend(v.Point for v in shape.Vertexes)
     domain = report["domain"]
     found.expect(abs(total / domain["volume_m3"] - 1) <= ROUGH_SUM, f"all solids have {total} m³, not {domain['volume_m3']}")
     for i, axis in enumerate("xyz"):
@@ -81,17 +98,21 @@ def check_shapes(report, volumes, parts, found):
     return count, worst, abs(total / domain["volume_m3"] - 1)
 
 
-def check_colors(volumes, parts, found):
-    for name in sorted(parts.keys() & volumes.keys()):
+def check_colors(volumes, by_volume, found):
+    for name, own in by_volume.items():
         wanted = tuple(bytes.fromhex(volumes[name]["color"].lstrip("#")))
-        # A part of several solids is coloured face by face.
-        seen = {tuple(round(255 * c) for c in color[:3]) for color in parts[name].ViewObject.DiffuseColor}
-        found.expect(seen == {wanted}, f"{name} is coloured {sorted(seen)}, not {wanted}")
+        for part in own:
+            # One colour, or one for each face.
+            seen = {tuple(round(255 * c) for c in color[:3]) for color in part.ViewObject.DiffuseColor}
+            found.expect(seen == {wanted}, f"{part.Label} is coloured {sorted(seen)}, not {wanted}")
 
 
-def save_picture(stem, folder, domain):
+def save_picture(stem, folder, background):
+    """An isometric view, the background as glass, because the bodies are inside it."""
     import FreeCADGui
 
+    for part in background:
+        part.ViewObject.Transparency = 85
     view = FreeCADGui.activeDocument().activeView()
     view.setCameraType("Orthographic")
     view.viewIsometric()
@@ -120,15 +141,17 @@ def check_build(folder, found):
         Import.insert(str(step), document.Name, useLinkGroup=False)
     seconds = time.time() - started
     parts = parts_of(document)
-    check_tree(report, volumes, parts, found)
-    count, worst, worst_sum = check_shapes(report, volumes, parts, found)
+    by_volume = check_names(volumes, parts, found)
+    check_tree(report, volumes, by_volume, found)
+    count, worst, worst_sum = check_shapes(report, volumes, by_volume, found)
     print(
         f"{step.name}: read in {seconds:.1f} s; {len(parts)} parts, {count} solids; "
         f"volumes off by at most {worst:.1e}, their sum by {worst_sum:.1e}"
     )
     if FreeCAD.GuiUp:
-        check_colors(volumes, parts, found)
-        save_picture(step.stem, os.environ["CLINOTHEM_PICTURES"], report["domain"])
+        check_colors(volumes, by_volume, found)
+        background = [part for name, own in by_volume.items() if volumes[name]["kind"] == "background" for part in own]
+        save_picture(step.stem, os.environ["CLINOTHEM_PICTURES"], background)
 
 
 def main():

@@ -63,6 +63,17 @@ def fine_volume(shape):
     return props.Mass()
 
 
+def check_volumes(build, parts, volume_of, relative):
+    """Compares the solids of each volume in the order of their size; gives the sum."""
+    found = {name: [] for name in build.volumes}
+    for path, part in parts:
+        found[build.volume_of(path[-1]).name] += [(volume_of(s) / MM**3, s.area / MM**2) for s in part.solids()]
+    for name, sizes in found.items():
+        for (size, area), told in zip(sorted(sizes), sorted(build.volumes[name].solids), strict=True):
+            assert build.same_volume(size, told, relative, area), (name, size, told)
+    return sum(size for sizes in found.values() for size, _ in sizes)
+
+
 def uses(bodies):
     """For each distinct face: the (index, reversed) of the solids or shells that it bounds."""
     faces, told = TopTools_IndexedMapOfShape(), {}
@@ -105,27 +116,31 @@ def check_walls_and_contacts(build, bodies, scale):
     assert skin == pytest.approx(build.skin, rel=1e-5)
 
 
-def test_each_volume_is_one_part_with_its_name(build, parts):
-    assert Counter(path[-1] for path, _ in parts) == dict.fromkeys(build.volumes, 1)
+def test_each_volume_is_a_part_with_its_name_or_a_node_with_its_pieces(build, parts):
+    assert build.are_parts([path[-1] for path, _ in parts])
+    assert all(path[-1] in build.volumes or path[-2] == build.pieces[path[-1]] for path, _ in parts)
 
 
 def test_instances_of_a_feature_stand_together_below_the_model(build, parts):
     instances = Counter(v.feature for v in build.volumes.values())
     for path, _ in parts:
-        volume = build.volumes[path[-1]]
+        volume = build.volume_of(path[-1])
         if volume.parent is None:
             assert path[0] == build.report["model"]["name"].translate(str.maketrans(" .()", "____"))
             # A feature with several instances is a node; a feature that is one volume is that volume.
-            assert list(path[1:-1])[:1] == ([volume.feature] if instances[volume.feature] > 1 else [])
+            assert path[1] == (volume.feature if instances[volume.feature] > 1 else volume.name)
 
 
 def test_each_volume_has_its_number_of_solids(build, parts):
-    assert {path[-1]: len(part.solids()) for path, part in parts} == {v.name: len(v.solids) for v in build.volumes.values()}
+    found = Counter()
+    for path, part in parts:
+        found[build.volume_of(path[-1]).name] += len(part.solids())
+    assert found == {v.name: len(v.solids) for v in build.volumes.values()}
 
 
 def test_each_volume_has_the_colour_of_its_facies(build, parts):
     seen = {path[-1]: part.color and tuple(round(255 * c) for c in tuple(part.color)[:3]) for path, part in parts}
-    assert seen == {v.name: v.color for v in build.volumes.values()}
+    assert seen == {name: build.volume_of(name).color for name in seen}
 
 
 def test_every_solid_is_valid_and_closed(parts):
@@ -143,23 +158,12 @@ def test_the_model_is_as_long_in_millimetres_as_its_metres_say(build, parts):
 
 
 def test_volumes_agree_with_the_report(build, parts):
-    total = 0.0
-    for path, part in parts:
-        promised = build.volumes[path[-1]].solids
-        found = sorted((fine_volume(s) / MM**3, s.area / MM**2) for s in part.solids())
-        for (size, area), told in zip(found, sorted(promised), strict=True):
-            assert build.same_volume(size, told, FINE, area), (path, size, told)
-            total += size
+    total = check_volumes(build, parts, fine_volume, FINE)
     assert total == pytest.approx(build.domain["volume_m3"], rel=FINE_SUM)
 
 
 def test_build123ds_own_rough_volumes_agree_with_the_report(build, parts):
-    total = 0.0
-    for path, part in parts:
-        found = sorted((s.volume / MM**3, s.area / MM**2) for s in part.solids())
-        for (size, area), told in zip(found, sorted(build.volumes[path[-1]].solids), strict=True):
-            assert build.same_volume(size, told, ROUGH, area), (path, size, told)
-            total += size
+    total = check_volumes(build, parts, lambda solid: solid.volume, ROUGH)
     assert total == pytest.approx(build.domain["volume_m3"], rel=ROUGH_SUM)
 
 
@@ -170,7 +174,7 @@ def test_the_reports_boxes_hold_the_solids(build, parts):
             corners = [[getattr(v.center(), axis) / MM for axis in "XYZ"] for v in solid.vertices()]
             assert any(
                 all(low[i] - build.tolerance <= c[i] <= high[i] + build.tolerance for c in corners for i in range(3))
-                for low, high in boxes[path[-1]]
+                for low, high in boxes[build.volume_of(path[-1]).name]
             ), path
 
 

@@ -24,10 +24,11 @@ def opened():
     gmsh.finalize()
 
 
-def volume_name(label, names):
+def volume_name(label, build):
     """Gmsh's labels are paths of names and layers: `Shapes/belt/channel/channel-2/channel-2 & & sand`."""
     path = "/" + label.split(" & ")[0]
-    return max((name for name in names if path.endswith("/" + name)), key=len, default=None)
+    ends = [name for name in {**build.volumes, **build.pieces} if path.endswith("/" + name)]
+    return build.volume_of(max(ends, key=len)).name if ends else None
 
 
 def check_contacts(build, solids):
@@ -59,7 +60,7 @@ def check_volumes(build, solids, promised):
 
 def test_the_assembly_has_its_names_colours_solids_and_volumes(build, opened):
     solids = opened(build.step)
-    names = [volume_name(gmsh.model.getEntityName(3, tag), build.volumes) for tag in solids]
+    names = [volume_name(gmsh.model.getEntityName(3, tag), build) for tag in solids]
     assert Counter(names) == {v.name: len(v.solids) for v in build.volumes.values()}
     colors = {name: gmsh.model.getColor(3, tag)[:3] for name, tag in zip(names, solids)}
     assert colors == {v.name: v.color for v in build.volumes.values()}
