@@ -353,7 +353,7 @@ const MOST_ROWS: usize = 30;
 fn summary(report: &Report, folder: &Path, written: &[String]) -> String {
     let mut out = String::new();
     let mut volumes = comfy_table::Table::new();
-    volumes.load_style(comfy_table::presets::UTF8_HORIZONTAL_ONLY);
+    volumes.load_style(comfy_table::presets::NOTHING);
     volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
     for volume in report.volumes.iter().take(MOST_ROWS) {
         volumes.add_row([

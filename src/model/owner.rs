@@ -96,6 +96,12 @@ impl Owners {
         self.shells[volume - 1].contains(point)
     }
 
+    /// The volumes whose bodies' shells come within a distance of a point (m), whatever holds the point.
+    pub fn near(&self, point: DVec3, distance: f64) -> impl Iterator<Item = usize> {
+        (1..=self.shells.len())
+            .filter(move |volume| self.shells[volume - 1].distance(point, distance).is_some())
+    }
+
     /// Whether the domain holds a point, its faces included.
     pub fn in_domain(&self, point: DVec3) -> bool {
         point.cmpge(self.low).all() && point.cmple(self.high).all()
@@ -106,16 +112,13 @@ impl Owners {
         if !self.in_domain(point) {
             return None;
         }
-        let near: Vec<usize> = (0..self.shells.len())
-            .filter(|&shell| self.shells[shell].distance(point, tolerance).is_some())
-            .collect();
         let history = self
             .rules
             .history(|body| self.shells[body - 1].contains(point));
         let owner = self
             .rules
             .owner(|body| self.shells[body - 1].contains(point));
-        if near.is_empty() {
+        if self.near(point, tolerance).next().is_none() {
             return Some(Location {
                 owner,
                 history,
