@@ -191,7 +191,7 @@ pub fn assemble(
         let job = job(plan, remedy, options.threads);
         let started = Instant::now();
         let fused = fuse(&job, options, cancel, &|fraction| {
-            progress(Stage::Fuse, fraction)
+            progress(Stage::Fuse, fraction);
         });
         fusing += started.elapsed();
         let (solids, report) = match fused {

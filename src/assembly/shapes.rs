@@ -251,7 +251,9 @@ impl<'a> Builder<'a> {
                     along_v(self.rim(0, k), u0, true),
                 ];
                 if is_plane {
-                    uses.iter_mut().for_each(|one| one.pcurve = None);
+                    for one in &mut uses {
+                        one.pcurve = None;
+                    }
                 }
                 self.topology.faces.push(Face {
                     surface,

@@ -87,7 +87,7 @@ enum Top {
     /// As it is.
     Free,
     /// Cut by the domain's own top.
-    AtDomainTop,
+    OfDomain,
     /// Cut by the lid at this elevation.
     UnderLid(f64),
 }
@@ -169,7 +169,7 @@ impl AssemblyPlan {
         for (i, level) in levels.iter().enumerate() {
             let Some(level) = *level else { continue };
             if (level - self.high.z).abs() <= same {
-                tops[i] = Top::AtDomainTop;
+                tops[i] = Top::OfDomain;
                 self.note(format!(
                     "{} ends at the domain's top",
                     self.names[bodies[i].volume]
@@ -202,7 +202,7 @@ impl AssemblyPlan {
     fn add_shell(&mut self, instance: &Instance, top: Top) -> Result<usize, PlanError> {
         let level = match top {
             Top::Free => None,
-            Top::AtDomainTop => Some(self.high.z),
+            Top::OfDomain => Some(self.high.z),
             Top::UnderLid(level) => Some(level),
         };
         let flush = match level {
