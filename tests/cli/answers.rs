@@ -39,7 +39,7 @@ fn examples_in_help_are_commands_that_the_program_knows() {
             let Some(arguments) = line.trim().strip_prefix("clinothem ") else {
                 continue;
             };
-            let arguments = arguments.split("   ").next().unwrap_or_default();
+            let arguments = arguments.split("  ").next().unwrap_or_default();
             let arguments = arguments.split('>').next().unwrap_or_default();
             // Any file will do, if only it is missing: then nothing but the arguments was read.
             let output = sandbox.run(&arguments.replace(".toml", "-missing.toml"));
