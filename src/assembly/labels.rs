@@ -89,7 +89,6 @@ fn users(cells: &[CellFaces], faces: usize) -> Result<Vec<Vec<(usize, bool)>>, L
     }
     for (face, used) in users.iter().enumerate() {
         match used[..] {
-            [] | [_] => {}
             [(first, a), (second, b)] if a == b => {
                 return Err(LabelError::SameSide {
                     face,
@@ -97,7 +96,7 @@ fn users(cells: &[CellFaces], faces: usize) -> Result<Vec<Vec<(usize, bool)>>, L
                     second,
                 });
             }
-            [_, _] => {}
+            [] | [_] | [_, _] => {}
             _ => {
                 return Err(LabelError::TooManyCells {
                     face,

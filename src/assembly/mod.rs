@@ -15,7 +15,7 @@ pub mod worker;
 use std::time::{Duration, Instant};
 
 use crate::model::owner::Owners;
-use crate::model::plan::AssemblyPlan;
+use crate::model::plan::{AssemblyPlan, PlannedBody};
 pub use kernel::Cancel;
 use kernel::{FuseError, FuseJob, FuseReport};
 use measure::Measured;
@@ -50,24 +50,34 @@ pub struct Options {
 struct Remedy {
     name: &'static str,
     cut: Cut,
+    tops: Tops,
     fuzzy: Option<f64>,
 }
 
 /// Four segments and ends well outside are what most belts need; what follows avoids the grazing
 /// contacts that a failed attempt ran into by putting edges elsewhere.
-const LADDER: [Remedy; 6] = [
-    remedy("none", 4, 2, None),
-    remedy("trajectories end elsewhere", 4, 4, None),
-    remedy("more segments", 8, 3, None),
-    remedy("uneven segments", 5, 1, None),
-    remedy("whole surfaces", 1, 2, None),
-    remedy("fuzzy contacts of 1 µm", 6, 5, Some(1e-6)),
+const LADDER: [Remedy; 5] = [
+    remedy("none", 4, 2, Tops::Planes, None),
+    remedy("trajectories end elsewhere", 4, 4, Tops::Planes, None),
+    remedy("more segments", 8, 3, Tops::Lids, None),
+    remedy("whole surfaces", 1, 2, Tops::Lids, None),
+    remedy("fuzzy contacts of 1 µm", 6, 5, Tops::Planes, Some(1e-6)),
 ];
+
+/// How the kernel is given level tops that coincide with others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tops {
+    /// As one plane for all of them.
+    Planes,
+    /// Raised banks under a lid: every contact is a crossing.
+    Lids,
+}
 
 const fn remedy(
     name: &'static str,
     segments: usize,
     overshoot: usize,
+    tops: Tops,
     fuzzy: Option<f64>,
 ) -> Remedy {
     Remedy {
@@ -76,6 +86,7 @@ const fn remedy(
             segments,
             overshoot,
         },
+        tops,
         fuzzy,
     }
 }
@@ -180,7 +191,7 @@ pub fn assemble(
         let job = job(plan, remedy, options.threads);
         let started = Instant::now();
         let fused = fuse(&job, options, cancel, &|fraction| {
-            progress(Stage::Fuse, fraction)
+            progress(Stage::Fuse, fraction);
         });
         fusing += started.elapsed();
         let (solids, report) = match fused {
@@ -215,7 +226,7 @@ pub fn assemble(
         let proof = proof::prove(
             &solids,
             &measured,
-            plan,
+            (plan, job.above_lids.len()),
             owners,
             options,
             cancel,
@@ -287,10 +298,18 @@ fn fuse(
 
 /// The plan as the kernel's job, with one remedy's way of cutting.
 fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
+    let with_lids = remedy.tops == Tops::Lids;
+    let block = [plan.low, plan.high];
     let shells: Vec<_> = plan
         .shells
         .iter()
-        .map(|shell| shapes::trough(shell, plan.low, plan.high, remedy.cut))
+        .map(|shell| match &shell.flush {
+            Some(flush) if with_lids => shapes::trough(&flush.raised, block, remedy.cut, None),
+            flush => {
+                let level = flush.as_ref().map(|flush| flush.level);
+                shapes::trough(&shell.body, block, remedy.cut, level)
+            }
+        })
         .collect();
     // What lies above a lid is a box so large that only its floor meets anything.
     let points = shells
@@ -309,9 +328,16 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
     };
     FuseJob {
         domain: [plan.low.to_array(), plan.high.to_array()],
-        above_lids: plan.lids.iter().map(above).collect(),
+        above_lids: plan.lids.iter().filter(|_| with_lids).map(above).collect(),
         shells,
-        bodies: plan.bodies.clone(),
+        bodies: plan
+            .bodies
+            .iter()
+            .map(|body| PlannedBody {
+                lid: body.lid.filter(|_| with_lids),
+                ..*body
+            })
+            .collect(),
         rules: plan.rules.clone(),
         threads,
         fuzzy: remedy.fuzzy,

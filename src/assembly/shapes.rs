@@ -23,10 +23,17 @@ pub(crate) struct Cut {
 }
 
 /// The closed shell of a trough, its ends outside the box `low`–`high` left off.
-pub(crate) fn trough(trough: &Trough, low: DVec3, high: DVec3, cut: Cut) -> Topology {
+///
+/// With a `level` the top is the plane at this elevation.
+pub(crate) fn trough(
+    trough: &Trough,
+    [low, high]: [DVec3; 2],
+    cut: Cut,
+    level: Option<f64>,
+) -> Topology {
     let (first, last) = ends(trough, low, high, cut.overshoot);
     let cuts = cuts(trough.base().knots_v(), first, last, cut.segments);
-    Builder::new(trough, &cuts).build()
+    Builder::new(trough, &cuts, level).build()
 }
 
 /// The topology of one whole surface as a face, for files of surfaces.
@@ -138,11 +145,19 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(trough: &'a Trough, cuts: &'a [f64]) -> Self {
+    fn new(trough: &'a Trough, cuts: &'a [f64], level: Option<f64>) -> Self {
+        let top = match level {
+            None => spline(trough.top()),
+            Some(level) => Surface::Plane {
+                origin: [0.0, 0.0, level],
+                normal: [0.0, 0.0, 1.0],
+                x_axis: [1.0, 0.0, 0.0],
+            },
+        };
         let topology = Topology {
             vertices: Vec::new(),
             curves: Vec::new(),
-            surfaces: vec![spline(trough.base()), spline(trough.top())],
+            surfaces: vec![spline(trough.base()), top],
             edges: Vec::new(),
             faces: Vec::new(),
             tolerance: EXACT,
@@ -219,6 +234,7 @@ impl<'a> Builder<'a> {
     fn long_faces(&mut self) {
         let sheets = [(self.trough.base(), true), (self.trough.top(), false)];
         for (surface, (sheet, reversed)) in sheets.into_iter().enumerate() {
+            let is_plane = matches!(self.topology.surfaces[surface], Surface::Plane { .. });
             let (u0, u1) = sheet.knots_u().domain();
             for (k, v) in self.cuts.windows(2).enumerate() {
                 let across = |k| {
@@ -228,12 +244,17 @@ impl<'a> Builder<'a> {
                         self.top_line(k)
                     }
                 };
-                let uses = vec![
+                let mut uses = vec![
                     along_u(across(k), v[0], false),
                     along_v(self.rim(1, k), u1, false),
                     along_u(across(k + 1), v[1], true),
                     along_v(self.rim(0, k), u0, true),
                 ];
+                if is_plane {
+                    for one in &mut uses {
+                        one.pcurve = None;
+                    }
+                }
                 self.topology.faces.push(Face {
                     surface,
                     reversed,

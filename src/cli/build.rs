@@ -422,7 +422,8 @@ fn summary(report: &Report, folder: &Path, written: &[String]) -> String {
         folder.display(),
         written.join(", ")
     );
-    if let Some(step) = written.iter().find(|name| name.ends_with(".step")) {
+    let is_step = |name: &&String| Path::new(name).extension().is_some_and(|end| end == "step");
+    if let Some(step) = written.iter().find(is_step) {
         let path = folder.join(step);
         let _ = writeln!(
             out,

@@ -414,7 +414,7 @@ fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {
         kind: rules.kind.clone(),
         level: rules.level,
         facies: rules.facies.clone(),
-        color: facies.map_or_else(String::new, |facies| hex(facies)),
+        color: facies.map_or_else(String::new, hex),
         parent: rules
             .parent
             .map(|parent| realisation.volumes[parent].name.clone()),

@@ -4,11 +4,11 @@
 //!
 //! - a body that does not reach into the domain takes no part;
 //! - bodies with the same shell (a feature repeated without any draw) share one;
-//! - *level tops that coincide*, with the domain's top or with each other, are not handed over as
-//!   coincident faces. The bodies' banks are raised above their tops, and a **lid** cuts them there:
-//!   inside means inside the raised shell and below the lid. Every contact is then a crossing at an
-//!   angle, and nothing changes inside the bodies. The domain's own top serves as lid for bodies that
-//!   reach it.
+//! - *level tops that coincide*, with the domain's top or with each other, are marked as flush, so that
+//!   the kernel is given one plane for all of them, or, as a remedy, no coincident faces at all: the
+//!   bodies' banks are raised above their tops, and a **lid** cuts them there. Inside means then inside
+//!   the raised shell and below the lid; every contact is a crossing at an angle, and nothing changes
+//!   inside the bodies. The domain's own top serves as lid for bodies that reach it.
 
 use glam::DVec3;
 
@@ -33,13 +33,31 @@ pub struct AssemblyPlan {
     /// The volumes' names, for messages.
     pub names: Vec<String>,
     /// The shells, each once.
-    pub shells: Vec<Trough>,
+    pub shells: Vec<PlannedShell>,
     /// Elevations at which bodies end under a lid inside the domain.
     pub lids: Vec<f64>,
     /// Bodies that take part, in order of evaluation.
     pub bodies: Vec<PlannedBody>,
     /// What was decided, in words for the report.
     pub decisions: Vec<String>,
+}
+
+/// A shell, and how it meets what its level top coincides with.
+#[derive(Clone, Debug)]
+pub struct PlannedShell {
+    /// The shell as the model means it.
+    pub body: Trough,
+    /// Set if its level top coincides with the domain's top or another body's.
+    pub flush: Option<Flush>,
+}
+
+/// A level top that coincides with something.
+#[derive(Clone, Debug)]
+pub struct Flush {
+    /// The common elevation (m).
+    pub level: f64,
+    /// The shell with its banks raised above it, to be cut there by a lid.
+    pub raised: Trough,
 }
 
 /// How a volume's inside is told from its shells.
@@ -69,7 +87,7 @@ enum Top {
     /// As it is.
     Free,
     /// Cut by the domain's own top.
-    AtDomainTop,
+    OfDomain,
     /// Cut by the lid at this elevation.
     UnderLid(f64),
 }
@@ -151,7 +169,7 @@ impl AssemblyPlan {
         for (i, level) in levels.iter().enumerate() {
             let Some(level) = *level else { continue };
             if (level - self.high.z).abs() <= same {
-                tops[i] = Top::AtDomainTop;
+                tops[i] = Top::OfDomain;
                 self.note(format!(
                     "{} ends at the domain's top",
                     self.names[bodies[i].volume]
@@ -182,15 +200,23 @@ impl AssemblyPlan {
     }
 
     fn add_shell(&mut self, instance: &Instance, top: Top) -> Result<usize, PlanError> {
-        let shell = match top {
-            Top::Free => instance.body.clone(),
-            Top::AtDomainTop | Top::UnderLid(_) => {
-                instance.body.raised().map_err(|source| PlanError {
+        let level = match top {
+            Top::Free => None,
+            Top::OfDomain => Some(self.high.z),
+            Top::UnderLid(level) => Some(level),
+        };
+        let flush = match level {
+            None => None,
+            Some(level) => {
+                let raised = instance.body.raised().map_err(|source| PlanError {
                     volume: self.names[instance.volume].clone(),
                     source,
-                })?
+                })?;
+                Some(Flush { level, raised })
             }
         };
+        let body = instance.body.clone();
+        let shell = PlannedShell { body, flush };
         self.shells.push(shell);
         Ok(self.shells.len() - 1)
     }

@@ -1,0 +1,14 @@
+//! The command line as its users meet it: the real program, its exit codes, streams and files.
+#![cfg(all(feature = "occt", unix))]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+mod answers;
+mod draws;
+mod failures;
+mod interrupted;
+mod sandbox;

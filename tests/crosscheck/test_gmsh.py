@@ -1,0 +1,106 @@
+"""Gmsh opens our files: names and colours from STEP, shared faces from the shared flavour and BREP, and a mesh."""
+
+from collections import Counter
+
+import gmsh
+import pytest
+from conftest import ROUGH, ROUGH_SUM
+
+
+@pytest.fixture
+def opened():
+    """Opens a file in metres, as a function of its path."""
+    gmsh.initialize(interruptible=False)
+    gmsh.option.setNumber("General.Verbosity", 2)
+    gmsh.option.setNumber("Geometry.OCCImportLabels", 1)
+    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+
+    def read(path):
+        gmsh.model.occ.importShapes(str(path))
+        gmsh.model.occ.synchronize()
+        return [tag for _, tag in gmsh.model.getEntities(3)]
+
+    yield read
+    gmsh.finalize()
+
+
+def volume_name(label, build):
+    """Gmsh's labels are paths of names and layers: `Shapes/belt/channel/channel-2/channel-2 & & sand`."""
+    path = "/" + label.split(" & ")[0]
+    ends = [name for name in {**build.volumes, **build.pieces} if path.endswith("/" + name)]
+    return build.volume_of(max(ends, key=len)).name if ends else None
+
+
+def check_contacts(build, solids):
+    """Each surface bounds one solid or two, and each solid's surfaces leave no edge open."""
+    surfaces = gmsh.model.getEntities(2)
+    assert len(surfaces) == build.faces
+    owners = Counter(len(gmsh.model.getAdjacencies(2, tag)[0]) for _, tag in surfaces)
+    assert set(owners) <= {1, 2}
+    for solid in solids:
+        skin = gmsh.model.getBoundary([(3, solid)], combined=False, oriented=True)
+        # An edge that two faces of the solid run through in opposite directions cancels out.
+        assert gmsh.model.getBoundary(skin, combined=True, oriented=True) == [], f"solid {solid} is open"
+    # Faces inside count twice.
+    areas = Counter()
+    for _, tag in surfaces:
+        areas[len(gmsh.model.getAdjacencies(2, tag)[0])] += gmsh.model.occ.getMass(2, tag)
+    assert areas[1] == pytest.approx(build.skin, rel=1e-5)
+
+
+def check_volumes(build, solids, promised):
+    total = 0.0
+    for tag, (name, told) in zip(solids, promised, strict=True):
+        size = gmsh.model.occ.getMass(3, tag)
+        area = sum(gmsh.model.occ.getMass(2, abs(face)) for _, face in gmsh.model.getBoundary([(3, tag)]))
+        assert build.same_volume(size, told, ROUGH, area), (name, size, told)
+        total += size
+    assert total == pytest.approx(build.domain["volume_m3"], rel=ROUGH_SUM)
+
+
+def test_the_assembly_has_its_names_colours_solids_and_volumes(build, opened):
+    solids = opened(build.step)
+    names = [volume_name(gmsh.model.getEntityName(3, tag), build) for tag in solids]
+    assert Counter(names) == {v.name: len(v.solids) for v in build.volumes.values()}
+    colors = {name: gmsh.model.getColor(3, tag)[:3] for name, tag in zip(names, solids)}
+    assert colors == {v.name: v.color for v in build.volumes.values()}
+    by_name = sorted(zip(names, solids, strict=True), key=lambda entry: (entry[0], gmsh.model.occ.getMass(3, entry[1])))
+    check_volumes(build, [tag for _, tag in by_name], sorted(build.solids))
+    if len(build.volumes) > 1:
+        assert len(gmsh.model.getEntities(2)) > build.faces
+
+
+def test_the_domain_in_metres(build, opened):
+    if build.stem != "quickstart":
+        pytest.skip("one small model shows it")
+    opened(build.step)
+    points = [gmsh.model.getValue(0, tag, []) for _, tag in gmsh.model.getEntities(0)]
+    for i, axis in enumerate("xyz"):
+        places = [point[i] for point in points]
+        assert [min(places), max(places)] == pytest.approx(build.domain[axis], abs=build.tolerance)
+
+
+@pytest.mark.parametrize("flavour", ["shared", "brep"])
+def test_common_faces_are_there_once_and_the_solids_close(build, opened, flavour):
+    solids = opened(getattr(build, flavour))
+    check_contacts(build, solids)
+    check_volumes(build, solids, build.solids)
+
+
+def test_tetrahedra_fill_the_solids_and_share_the_nodes_of_common_faces(build, opened):
+    if build.stem != "quickstart":
+        pytest.skip("one small model shows it")
+    solids = opened(build.brep)
+    # Much coarser than the channels are deep (5-6 m), and chords of one side cross those of the other.
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 10)
+    gmsh.model.mesh.generate(3)
+    total = 0.0
+    for tag, (name, told) in zip(solids, build.solids, strict=True):
+        kinds, elements, _ = gmsh.model.mesh.getElements(3, tag)
+        assert list(kinds) == [4], f"{name} is not all tetrahedra"
+        found = sum(gmsh.model.mesh.getElementQualities(elements[0], "volume"))
+        # Chords of 10 m cut the corners of channels 50-70 m wide.
+        assert found == pytest.approx(told, rel=0.04), name
+        total += found
+    # What one solid loses to a chord its neighbour gains: nothing is left between them.
+    assert total == pytest.approx(build.domain["volume_m3"], rel=1e-9)
