@@ -274,6 +274,24 @@ impl Output<'_> {
         result
     }
 
+    /// The formats asked for. Shared STEP holds closed shells, which cannot tell a void from a body, so
+    /// BREP takes its place where a volume encloses another.
+    fn formats(&self, built: &Built) -> Vec<Format> {
+        let mut formats = self.args.formats.clone();
+        if let (Some(volume), true) = (
+            built.assembly.enclosing_volume(),
+            formats.contains(&Format::StepShared),
+        ) {
+            let name = &built.plan.names[volume];
+            print::err(&format!(
+                "note: {name} wholly encloses another volume, which shared STEP cannot express; BREP is written instead"
+            ));
+            formats.retain(|format| *format != Format::StepShared);
+            formats.push(Format::Brep);
+        }
+        formats
+    }
+
     fn write_files(
         &self,
         staging: &Path,
@@ -283,7 +301,7 @@ impl Output<'_> {
         let (model, realisation) = (&built.loaded.model, &built.loaded.realisation);
         let protocol = self.args.step_schema.into();
         let mut names = Vec::new();
-        for format in &self.args.formats {
+        for format in &self.formats(built) {
             let name = match format {
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
