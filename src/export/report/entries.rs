@@ -1,0 +1,236 @@
+//! What a report says: its entries, as they stand in the file.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::assembly::proof::Check;
+
+/// A build's report.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Report {
+    /// Name and version of this schema.
+    pub schema: &'static str,
+    /// The program that made the model.
+    pub program: Program,
+    /// The model.
+    pub model: ModelEntry,
+    /// The modelled block.
+    pub domain: DomainEntry,
+    /// The volumes, background first, then from oldest to youngest.
+    pub volumes: Vec<VolumeEntry>,
+    /// Totals of each facies, in the order of the model file.
+    pub facies: Vec<FaciesEntry>,
+    /// Net volume over gross volume; null if a facies does not say whether it is net.
+    pub net_to_gross: Option<f64>,
+    /// Draws that made no surface and were made again.
+    pub rejected_draws: Vec<RejectedEntry>,
+    /// Coincidences that were decided before the kernel saw them.
+    pub decisions: Vec<String>,
+    /// Remarks on the model file.
+    pub notes: Vec<String>,
+    /// How the solids were made.
+    pub assembly: AssemblyEntry,
+    /// The proof that they are right.
+    pub proof: ProofEntry,
+}
+
+/// The program that made the model.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Program {
+    /// Its name.
+    pub name: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// The version of `OpenCASCADE`.
+    pub occt: String,
+}
+
+/// The model.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ModelEntry {
+    /// Its name.
+    pub name: String,
+    /// What it is about.
+    pub description: Option<String>,
+    /// The seed of all draws.
+    pub seed: u64,
+    /// Where the local origin lies in the world (m).
+    pub origin: [f64; 3],
+}
+
+/// The modelled block.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct DomainEntry {
+    /// West and east limits (m).
+    pub x: [f64; 2],
+    /// South and north limits (m).
+    pub y: [f64; 2],
+    /// Base and top (m).
+    pub z: [f64; 2],
+    /// Volume (m³).
+    pub volume_m3: f64,
+}
+
+/// One volume.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct VolumeEntry {
+    /// Its name, the same in every file.
+    pub name: String,
+    /// The feature that it is an instance of.
+    pub feature: String,
+    /// The feature's kind.
+    pub kind: String,
+    /// Hierarchical level; 0 is the background.
+    pub level: u32,
+    /// Its facies.
+    pub facies: String,
+    /// The facies' colour.
+    pub color: String,
+    /// The volume that it is a child of.
+    pub parent: Option<String>,
+    /// Rock properties of its facies; permeability in mD.
+    pub properties: BTreeMap<String, serde_json::Value>,
+    /// What was drawn for it, by parameter.
+    pub drawn: BTreeMap<String, f64>,
+    /// Volume (m³).
+    pub volume_m3: f64,
+    /// Its connected pieces, largest first; none if younger bodies removed it or it lies outside.
+    pub solids: Vec<SolidEntry>,
+    /// Area on the domain's boundary (m²).
+    pub outer_area_m2: f64,
+    /// Volumes that it touches.
+    pub neighbours: Vec<NeighbourEntry>,
+}
+
+/// One connected piece of a volume.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SolidEntry {
+    /// The volume's name, with a number if it has several pieces.
+    pub name: String,
+    /// Volume (m³).
+    pub volume_m3: f64,
+    /// Lower and upper corner of a box around it (m); from control points, so it may be slightly larger.
+    #[serde(rename = "box")]
+    pub bounds: [[f64; 3]; 2],
+}
+
+/// A contact with another volume.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct NeighbourEntry {
+    /// The other volume.
+    pub name: String,
+    /// Area of the contact (m²).
+    pub area_m2: f64,
+}
+
+/// Totals of a facies.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct FaciesEntry {
+    /// Its name.
+    pub name: String,
+    /// Its colour.
+    pub color: String,
+    /// Whether it is net.
+    pub net: Option<bool>,
+    /// Volume (m³).
+    pub volume_m3: f64,
+    /// Share of the domain.
+    pub fraction: f64,
+    /// Groups of volumes of this facies that touch each other, largest first.
+    pub connected: Vec<GroupEntry>,
+}
+
+/// Volumes of one facies that are connected.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct GroupEntry {
+    /// Their solids.
+    pub solids: Vec<String>,
+    /// Volume (m³).
+    pub volume_m3: f64,
+}
+
+/// Draws that were rejected.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RejectedEntry {
+    /// The feature.
+    pub feature: String,
+    /// Why.
+    pub reason: String,
+    /// How many.
+    pub count: u32,
+}
+
+/// How the solids were made.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct AssemblyEntry {
+    /// The engine.
+    pub engine: &'static str,
+    /// The remedy that was needed, or `none`.
+    pub remedy: &'static str,
+    /// What was tried before, and why it was not accepted.
+    pub failed_attempts: Vec<FailedEntry>,
+    /// Cells before those of one volume were merged.
+    pub cells: usize,
+    /// Pairs of bodies that cross.
+    pub crossing_pairs: usize,
+    /// Solids.
+    pub solids: usize,
+    /// Faces, each once.
+    pub faces: usize,
+    /// Edges, each once.
+    pub edges: usize,
+    /// Largest tolerance of a face, edge or vertex (m).
+    pub tolerance_m: f64,
+    /// The kernel's warnings.
+    pub kernel_warnings: Vec<String>,
+}
+
+/// An attempt that was not accepted.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct FailedEntry {
+    /// The remedy that was tried.
+    pub remedy: &'static str,
+    /// Why it was not accepted.
+    pub why: String,
+}
+
+/// The proof.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ProofEntry {
+    /// `fast` or `full`.
+    pub level: &'static str,
+    /// Its statements.
+    pub checks: Vec<CheckEntry>,
+}
+
+/// A statement of the proof: it holds if `measured` is at most `bound`.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct CheckEntry {
+    /// What is checked.
+    pub name: &'static str,
+    /// What was found.
+    pub measured: f64,
+    /// The most that is allowed.
+    pub bound: f64,
+    /// Over what.
+    pub detail: String,
+}
+
+impl From<&Check> for CheckEntry {
+    fn from(check: &Check) -> Self {
+        let Check {
+            name,
+            measured,
+            bound,
+            detail,
+        } = check.clone();
+        Self {
+            name,
+            measured,
+            bound,
+            detail,
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! `report.json`: everything about an assembly that the same model, seed and version always give.
+
+mod entries;
+mod groups;
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use crate::assembly::proof::Level;
+use crate::assembly::{Assembly, kernel};
+use crate::model::plan::AssemblyPlan;
+use crate::model::realisation::Realisation;
+use crate::model::{Facies, Model, Property};
+
+pub use entries::*;
+use groups::groups;
+
+/// Name and version of the report's own schema.
+const SCHEMA: &str = "clinothem-report-1";
+
+/// What a report is made of.
+#[derive(Clone, Copy)]
+pub struct Parts<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its realisation.
+    pub realisation: &'a Realisation,
+    /// The plan.
+    pub plan: &'a AssemblyPlan,
+    /// The assembly.
+    pub assembly: &'a Assembly,
+    /// How thorough its proof was.
+    pub level: Level,
+}
+
+impl Report {
+    /// The report of a build.
+    pub fn new(parts: Parts<'_>) -> Self {
+        let Parts {
+            model,
+            realisation,
+            plan,
+            assembly,
+            level,
+        } = parts;
+        let size = plan.high - plan.low;
+        let domain = size.element_product();
+        let volumes: Vec<VolumeEntry> = (0..realisation.volumes.len())
+            .map(|volume| volume_entry(parts, volume))
+            .collect();
+        let facies: Vec<FaciesEntry> = model
+            .facies
+            .iter()
+            .map(|facies| facies_entry(parts, facies, domain))
+            .collect();
+        let net = facies
+            .iter()
+            .filter(|one| one.volume_m3 > 0.0)
+            .try_fold(0.0, |sum, one| {
+                one.net
+                    .map(|net| if net { sum + one.volume_m3 } else { sum })
+            });
+        Self {
+            schema: SCHEMA,
+            program: Program {
+                name: env!("CARGO_PKG_NAME"),
+                version: env!("CARGO_PKG_VERSION"),
+                occt: kernel::version(),
+            },
+            model: ModelEntry {
+                name: model.name.clone(),
+                description: model.description.clone(),
+                seed: model.seed,
+                origin: model.origin,
+            },
+            domain: DomainEntry {
+                x: model.domain.x,
+                y: model.domain.y,
+                z: model.domain.z,
+                volume_m3: domain,
+            },
+            volumes,
+            facies,
+            net_to_gross: net.map(|net| net / domain),
+            rejected_draws: realisation
+                .rejections
+                .iter()
+                .map(|one| RejectedEntry {
+                    feature: one.feature.clone(),
+                    reason: one.reason.clone(),
+                    count: one.count,
+                })
+                .collect(),
+            decisions: plan.decisions.clone(),
+            notes: model
+                .notes
+                .iter()
+                .map(|note| note.message.clone())
+                .collect(),
+            assembly: assembly_entry(assembly),
+            proof: ProofEntry {
+                level: level.name(),
+                checks: assembly.proof.checks.iter().map(CheckEntry::from).collect(),
+            },
+        }
+    }
+
+    /// The report as JSON, with a line break at its end.
+    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+        Ok(serde_json::to_string_pretty(self)? + "\n")
+    }
+
+    /// The schema of reports.
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
+}
+
+fn assembly_entry(assembly: &Assembly) -> AssemblyEntry {
+    AssemblyEntry {
+        engine: "occt",
+        remedy: assembly.remedy,
+        failed_attempts: assembly
+            .failed
+            .iter()
+            .map(|failed| FailedEntry {
+                remedy: failed.remedy,
+                why: failed.why.clone(),
+            })
+            .collect(),
+        cells: assembly.cells,
+        crossing_pairs: assembly.crossing_bodies,
+        solids: assembly.measured.pieces.len(),
+        faces: assembly.measured.faces,
+        edges: assembly.measured.edges,
+        tolerance_m: assembly.measured.tolerance,
+        kernel_warnings: assembly.alerts.clone(),
+    }
+}
+
+/// The names of a volume's solids: its own, numbered if there are several.
+pub fn solid_names(name: &str, count: usize) -> Vec<String> {
+    if count == 1 {
+        return vec![name.to_owned()];
+    }
+    (1..=count)
+        .map(|number| format!("{name}#{number}"))
+        .collect()
+}
+
+fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {
+    let Parts {
+        model,
+        realisation,
+        assembly,
+        ..
+    } = parts;
+    let rules = &realisation.volumes[volume];
+    let measured = &assembly.measured;
+    let pieces = measured.pieces_of(volume);
+    let facies = model
+        .facies
+        .iter()
+        .find(|facies| facies.name == rules.facies);
+    let neighbours = measured
+        .contacts
+        .iter()
+        .filter(|((a, b), _)| (*a == volume) != (*b == volume))
+        .map(|((a, b), area)| NeighbourEntry {
+            name: realisation.volumes[if *a == volume { *b } else { *a }]
+                .name
+                .clone(),
+            area_m2: *area,
+        })
+        .collect();
+    let drawn = volume
+        .checked_sub(1)
+        .map(|instance| {
+            realisation.instances[instance]
+                .drawn
+                .iter()
+                .cloned()
+                .collect()
+        })
+        .unwrap_or_default();
+    VolumeEntry {
+        name: rules.name.clone(),
+        feature: rules.feature.clone(),
+        kind: rules.kind.clone(),
+        level: rules.level,
+        facies: rules.facies.clone(),
+        color: facies.map_or_else(String::new, hex),
+        parent: rules
+            .parent
+            .map(|parent| realisation.volumes[parent].name.clone()),
+        properties: facies.map(properties).unwrap_or_default(),
+        drawn,
+        volume_m3: measured.size_of(volume),
+        solids: solid_names(&rules.name, pieces.len())
+            .into_iter()
+            .zip(pieces)
+            .map(|(name, piece)| SolidEntry {
+                name,
+                volume_m3: piece.size,
+                bounds: [piece.bounds.0, piece.bounds.1].map(|p: DVec3| p.to_array()),
+            })
+            .collect(),
+        outer_area_m2: measured.outer.get(&volume).copied().unwrap_or(0.0),
+        neighbours,
+    }
+}
+
+/// A facies' colour as `#rrggbb`.
+pub(crate) fn hex(facies: &Facies) -> String {
+    let color = facies.color;
+    format!("#{:02x}{:02x}{:02x}", color.r, color.g, color.b)
+}
+
+fn properties(facies: &Facies) -> BTreeMap<String, serde_json::Value> {
+    let value = |property: &Property| match property {
+        Property::Scalar(value) => serde_json::json!(value),
+        Property::Vector(values) => serde_json::json!(values),
+    };
+    facies
+        .properties
+        .iter()
+        .map(|(name, property)| (name.clone(), value(property)))
+        .collect()
+}
+
+fn facies_entry(parts: Parts<'_>, facies: &Facies, domain: f64) -> FaciesEntry {
+    let Parts {
+        realisation,
+        assembly,
+        ..
+    } = parts;
+    let measured = &assembly.measured;
+    let is_ours = |volume: usize| realisation.volumes[volume].facies == facies.name;
+    let total: f64 = (0..realisation.volumes.len())
+        .filter(|volume| is_ours(*volume))
+        .map(|volume| measured.size_of(volume))
+        .sum();
+    FaciesEntry {
+        name: facies.name.clone(),
+        color: hex(facies),
+        net: facies.net,
+        volume_m3: total,
+        fraction: total / domain,
+        connected: groups(parts, &is_ours),
+    }
+}
