@@ -10,12 +10,13 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages=(ca-certificates g++ libocct-data-exchange-dev)
 # Python for the cross-checks, and the X and OpenGL libraries that the wheels of Gmsh and of the OpenCASCADE
 # bindings are linked with though nothing is shown.
-# shellcheck disable=SC2034  # used by script/test
-test_packages=(
-    "${build_packages[@]}" python3 python3-venv
+crosscheck_packages=(
+    python3 python3-venv
     libfontconfig1 libgl1 libglu1-mesa libgomp1 libopengl0
     libxcursor1 libxext6 libxfixes3 libxft2 libxinerama1 libxrender1
 )
+# shellcheck disable=SC2034  # used by script/test
+test_packages=("${build_packages[@]}" "${crosscheck_packages[@]}" shellcheck)
 
 say() { printf '\n== %s\n' "$*" >&2; }
 die() {

@@ -124,6 +124,15 @@ pub struct Assembly {
 }
 
 impl Assembly {
+    /// The first volume with a solid that wholly encloses another one, if any.
+    pub fn enclosing_volume(&self) -> Option<usize> {
+        self.solids
+            .solids()
+            .iter()
+            .find(|solid| solid.shells > 1)
+            .map(|solid| solid.owner)
+    }
+
     /// All solids in one shape with common faces, in the order of [`Measured::pieces`].
     pub(crate) fn ordered_compound(&self) -> Result<kernel::Shape, kernel::BridgeError> {
         let solids = self

@@ -104,8 +104,10 @@ fn base(width: f64, depth: f64, asymmetry: f64, u: f64) -> [f64; 2] {
     for level in 1..=3 {
         for i in (span - 3 + level..=span).rev() {
             let t = (u - knots[i]) / (knots[i + 4 - level] - knots[i]);
-            let [before, here] = [points[i - 1], points[i]];
-            points[i] = [0, 1].map(|axis| (1.0 - t) * before[axis] + t * here[axis]);
+            let before = points[i - 1];
+            for (value, previous) in points[i].iter_mut().zip(before) {
+                *value = (1.0 - t) * previous + t * *value;
+            }
         }
     }
     points[span]

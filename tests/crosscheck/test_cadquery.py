@@ -5,12 +5,15 @@ from collections import Counter
 import cadquery as cq
 import pytest
 from conftest import ROUGH, ROUGH_SUM
+from OCP.Interface import Interface_Static
 
 
 @pytest.fixture(scope="module")
 def parts(build):
-    """Objects of the tree by name; cadquery's unit is set to metres."""
+    """Objects of the tree by name, in metres."""
     assembly = cq.Assembly.importStep(str(build.step), "M")
+    # It sets the unit for everything that reads STEP in this process.
+    assert Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
     return [(node.name, node) for _, node in assembly.traverse() if node.obj is not None]
 
 
