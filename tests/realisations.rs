@@ -29,8 +29,11 @@ fn realise(text: &str, overrides: &[String]) -> Realisation {
 
 const BELT: &str = include_str!("../models/channel-belt/channel-belt.toml");
 
+/// What was drawn, and the control points that came of it.
+type Drawn = (Vec<(String, f64)>, Vec<DVec3>);
+
 /// Every instance's draws and control points, by name.
-fn instances(realisation: &Realisation) -> BTreeMap<String, (Vec<(String, f64)>, Vec<DVec3>)> {
+fn instances(realisation: &Realisation) -> BTreeMap<String, Drawn> {
     realisation
         .instances
         .iter()

@@ -22,6 +22,8 @@ mod progress;
 mod schema;
 mod section;
 #[cfg(feature = "occt")]
+mod summary;
+#[cfg(feature = "occt")]
 mod surfaces;
 #[cfg(feature = "occt")]
 mod view;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::*;
-use crate::features::trajectory::SineGenerated;
+use crate::features::meander::SineGenerated;
 
 fn design(width: f64, depth: f64) -> ChannelDesign {
     ChannelDesign {

@@ -6,6 +6,7 @@
 pub mod body;
 pub mod channel;
 pub mod extrusion;
+pub mod meander;
 pub mod profile;
 pub mod section;
 pub mod trajectory;

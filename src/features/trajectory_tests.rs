@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use super::*;
+use crate::features::meander::{SineGenerated, bessel_j0, solve_omega, struve_h0};
 
 fn meander(amplitude: f64, wavelength: f64) -> SineGenerated {
     SineGenerated {

@@ -10,8 +10,9 @@ use super::spec::{ChannelSpec, Domain, SectionOrigin, TrajectorySpec};
 use super::stream::Stream;
 use crate::features::body::Trough;
 use crate::features::channel::{ChannelDesign, Origin};
+use crate::features::meander::SineGenerated;
 use crate::features::profile::Profile;
-use crate::features::trajectory::{SineGenerated, Trajectory, TrajectoryError, azimuth_vector};
+use crate::features::trajectory::{Trajectory, TrajectoryError, azimuth_vector};
 
 /// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
 /// two widths are added. Ends well outside leave the domain's walls to be crossed cleanly.

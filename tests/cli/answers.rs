@@ -104,8 +104,9 @@ fn base(width: f64, depth: f64, asymmetry: f64, u: f64) -> [f64; 2] {
     for level in 1..=3 {
         for i in (span - 3 + level..=span).rev() {
             let t = (u - knots[i]) / (knots[i + 4 - level] - knots[i]);
-            for axis in 0..2 {
-                points[i][axis] = (1.0 - t) * points[i - 1][axis] + t * points[i][axis];
+            let before = points[i - 1];
+            for (value, previous) in points[i].iter_mut().zip(before) {
+                *value = (1.0 - t) * previous + t * *value;
             }
         }
     }

@@ -135,7 +135,7 @@ def clinothem():
 
     def run(*arguments, cwd=ROOT):
         command = [str(program), *map(str, arguments)]
-        done = subprocess.run(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
         assert done.returncode == 0, f"{' '.join(command)} ended with {done.returncode}\n{done.stderr}"
 
     return run

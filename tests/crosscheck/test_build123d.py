@@ -47,8 +47,12 @@ def brep(build):
 
 
 @pytest.fixture(scope="module")
-def shared(build):
+def shared(build, brep):
     """The shared flavour, read with OpenCASCADE's setting for shapes that share faces; without it each shell is copied."""
+    if not build.shared.exists():
+        # It cannot tell a void from a body, so it is not written where one volume encloses another.
+        assert any(len(solid.shells()) > 1 for solid in brep.solids()), "there is no shared STEP"
+        pytest.skip("a volume encloses another: BREP stands in for shared STEP")
     before = Interface_Static.IVal_s("read.step.nonmanifold")
     assert Interface_Static.SetIVal_s("read.step.nonmanifold", 1)
     try:
@@ -128,7 +132,8 @@ def test_instances_of_a_feature_stand_together_below_the_model(build, parts):
         if volume.parent is None:
             assert path[0] == build.report["model"]["name"].translate(str.maketrans(" .()", "____"))
             # A feature with several instances is a node; a feature that is one volume is that volume.
-            assert path[1] == (volume.feature if instances[volume.feature] > 1 else volume.name)
+            alone = {volume.name, f"{volume.name}_with_children"}
+            assert path[1] in ({volume.feature} if instances[volume.feature] > 1 else alone)
 
 
 def test_each_volume_has_its_number_of_solids(build, parts):

@@ -11,7 +11,9 @@ OUTPUTS = ["{}.step", "{}.shared.step", "{}.brep", "volumes.csv", "report.json"]
 
 def differing(build, other, outputs=OUTPUTS):
     names = [name.format(build.stem) for name in outputs]
-    assert all((build.dir / name).stat().st_size > 0 for name in names)
+    # There is no shared STEP where one volume encloses another; then the other build must not have it either.
+    names = [name for name in names if not name.endswith(".shared.step") or (build.dir / name).exists() or (other / name).exists()]
+    assert all((folder / name).stat().st_size > 0 for name in names for folder in (build.dir, other))
     return [name for name in names if not filecmp.cmp(build.dir / name, other / name, shallow=False)]
 
 
@@ -42,6 +44,8 @@ def test_another_seed_gives_other_bytes(build, model, clinothem, tmp_path):
 
 @pytest.mark.parametrize("flavour", ["step", "shared"])
 def test_the_file_declares_metres_and_nothing_else_and_holds_no_clock(build, flavour):
+    if flavour == "shared" and not build.shared.exists():
+        pytest.skip("a volume encloses another: there is no shared STEP")
     text = getattr(build, flavour).read_text(encoding="ascii")
     units = set(re.findall(r"LENGTH_UNIT\s*\(\s*\)\s*NAMED_UNIT\s*\(\s*\*\s*\)\s*SI_UNIT\s*\(([^)]*)\)", text))
     assert units == {"$,.METRE."}

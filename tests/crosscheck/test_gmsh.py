@@ -82,6 +82,8 @@ def test_the_domain_in_metres(build, opened):
 
 @pytest.mark.parametrize("flavour", ["shared", "brep"])
 def test_common_faces_are_there_once_and_the_solids_close(build, opened, flavour):
+    if flavour == "shared" and not build.shared.exists():
+        pytest.skip("a volume encloses another: there is no shared STEP")
     solids = opened(getattr(build, flavour))
     check_contacts(build, solids)
     check_volumes(build, solids, build.solids)

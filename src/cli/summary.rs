@@ -1,0 +1,110 @@
+//! The readable summary of a build.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use crate::export::report::Report;
+
+/// Rows of the summary's table of volumes.
+const MOST_ROWS: usize = 30;
+
+pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String {
+    let mut out = String::new();
+    let mut volumes = comfy_table::Table::new();
+    volumes.load_style(comfy_table::presets::NOTHING);
+    volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
+    for volume in report.volumes.iter().take(MOST_ROWS) {
+        volumes.add_row([
+            volume.name.clone(),
+            volume.facies.clone(),
+            volume.solids.len().to_string(),
+            grouped(volume.volume_m3),
+            format!(
+                "{:.3} %",
+                100.0 * volume.volume_m3 / report.domain.volume_m3
+            ),
+        ]);
+    }
+    for column in 2..5 {
+        if let Some(column) = volumes.column_mut(column) {
+            column.set_cell_alignment(comfy_table::CellAlignment::Right);
+        }
+    }
+    let _ = writeln!(out, "{volumes}");
+    if report.volumes.len() > MOST_ROWS {
+        let _ = writeln!(
+            out,
+            "… and {} more in volumes.csv",
+            report.volumes.len() - MOST_ROWS
+        );
+    }
+    for facies in &report.facies {
+        let _ = writeln!(
+            out,
+            "{}: {} m³, {:.2} % in {} connected group{}",
+            facies.name,
+            grouped(facies.volume_m3),
+            100.0 * facies.fraction,
+            facies.connected.len(),
+            if facies.connected.len() == 1 { "" } else { "s" }
+        );
+    }
+    if let Some(net_to_gross) = report.net_to_gross {
+        let _ = writeln!(out, "net-to-gross: {net_to_gross:.4}");
+    }
+    for rejected in &report.rejected_draws {
+        let _ = writeln!(
+            out,
+            "{} draw(s) of {} made again: {}",
+            rejected.count, rejected.feature, rejected.reason
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nproven: {} solids, {} faces, {} pairs of bodies cross; remedy: {}",
+        report.assembly.solids,
+        report.assembly.faces,
+        report.assembly.crossing_pairs,
+        report.assembly.remedy
+    );
+    for check in &report.proof.checks {
+        let _ = writeln!(
+            out,
+            "  {}: {:.3e}, at most {:.3e}",
+            check.name, check.measured, check.bound
+        );
+    }
+    let _ = writeln!(
+        out,
+        "\nwrote to {}: {}",
+        folder.display(),
+        written.join(", ")
+    );
+    let is_step = |name: &&String| Path::new(name).extension().is_some_and(|end| end == "step");
+    if let Some(step) = written.iter().find(is_step) {
+        let path = folder.join(step);
+        let _ = writeln!(
+            out,
+            "next: open {} in FreeCAD or any CAD program",
+            path.display()
+        );
+    }
+    out
+}
+
+/// A whole number with spaces between groups of three digits.
+fn grouped(value: f64) -> String {
+    let digits = format!("{:.0}", value.abs());
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    if value < 0.0 && digits != "0" {
+        format!("−{out}")
+    } else {
+        out
+    }
+}
