@@ -63,7 +63,7 @@ fn the_quickstart_has_two_channels() {
             .collect::<Vec<_>>(),
         ["old-channel", "young-channel"]
     );
-    assert_eq!(model.features[1].place.line, 32);
+    assert_eq!(model.features[1].place.line, 33);
 }
 
 #[test]

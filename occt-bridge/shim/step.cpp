@@ -304,6 +304,15 @@ void write_shared(rust::Str path, const StepHeader& header, const ShapeHandle& s
   declare_metres(writer.Model());
   if (writer.Transfer(shape.shape, STEPControl_AsIs) != IFSelect_RetDone) throw Refused("the shape could not be translated to STEP");
   const Handle(StepData_StepModel) model = writer.Model();
+  // The kernel numbers its products by a counter that lives as long as the process.
+  int products = 0;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
+    if (product.IsNull()) continue;
+    const std::string name(header.name);
+    product->SetName(shared(header.name));
+    product->SetId(new TCollection_HAsciiString((++products == 1 ? name : name + " #" + std::to_string(products)).c_str()));
+  }
   // The kernel writes each solid as its closed shell.
   std::vector<Handle(StepShape_ShellBasedSurfaceModel)> items;
   for (int i = 1; i <= model->NbEntities(); ++i) {
@@ -313,6 +322,7 @@ void write_shared(rust::Str path, const StepHeader& header, const ShapeHandle& s
   if (items.size() != static_cast<std::size_t>(solids.Extent()))
     throw Refused(std::to_string(solids.Extent()) + " solids became " + std::to_string(items.size()) + " closed shells");
   for (std::size_t i = 0; i < names.size(); ++i) items[i]->SetName(shared(names[i]));
+  renumber_occurrences(model);
   check_scale(model, {shape.shape});
   write_header(model, header);
   write_file(writer, std::string(path));

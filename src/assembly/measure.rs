@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::kernel::{BridgeError, FaceIntegral, Solids, Threads, face_integrals, solid_boxes};
-use crate::model::plan::AssemblyPlan;
+use crate::model::plan::{AssemblyPlan, net_bounds};
 
 /// Relative error asked of the integrals of area and flux of each face.
 /// 1e-6 is right to 1e-9 on these faces and six times faster than 1e-8.
@@ -65,7 +65,7 @@ impl Measured {
             }
         }
         Ok(Self {
-            pieces: pieces(solids, &integrals)?,
+            pieces: pieces(solids, &integrals, plan)?,
             contacts,
             outer,
             tolerance: integrals
@@ -91,7 +91,11 @@ impl Measured {
     }
 }
 
-fn pieces(solids: &Solids, integrals: &[FaceIntegral]) -> Result<Vec<Piece>, BridgeError> {
+fn pieces(
+    solids: &Solids,
+    integrals: &[FaceIntegral],
+    plan: &AssemblyPlan,
+) -> Result<Vec<Piece>, BridgeError> {
     let mut pieces = Vec::with_capacity(solids.solids().len());
     let boxes = solid_boxes(solids, Threads::All)?;
     for (index, (solid, found)) in solids.solids().iter().zip(&boxes).enumerate() {
@@ -99,11 +103,15 @@ fn pieces(solids: &Solids, integrals: &[FaceIntegral]) -> Result<Vec<Piece>, Bri
             let flux = integrals[*face].flux;
             if *reversed { -flux } else { flux }
         };
+        let limits = limits(plan, solid.owner);
         pieces.push(Piece {
             volume: solid.owner,
             solid: index,
             size: solid.faces.iter().map(signed).sum(),
-            bounds: (DVec3::from_array(found.min), DVec3::from_array(found.max)),
+            bounds: (
+                DVec3::from_array(found.min).max(limits.0),
+                DVec3::from_array(found.max).min(limits.1),
+            ),
         });
     }
     pieces.sort_by(|a, b| {
@@ -118,4 +126,14 @@ fn pieces(solids: &Solids, integrals: &[FaceIntegral]) -> Result<Vec<Piece>, Bri
             })
     });
     Ok(pieces)
+}
+
+/// Where a volume can be: within the domain, and within its body's control net. The kernel's boxes
+/// hold whole surfaces, so they reach beyond both.
+fn limits(plan: &AssemblyPlan, volume: usize) -> (DVec3, DVec3) {
+    let body = plan.bodies.iter().find(|body| body.volume == volume);
+    let (low, high) = body.map_or((plan.low, plan.high), |body| {
+        net_bounds(plan.shells[body.shell].body.base().net())
+    });
+    (low.max(plan.low), high.min(plan.high))
 }

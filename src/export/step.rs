@@ -254,13 +254,27 @@ impl Tree<'_> {
         }
         let rules = &self.realisation.volumes[volume];
         let facies = facies_of(self.model, &rules.facies);
-        Ok(Some(StepNode {
-            name: rules.name.clone(),
+        let part = |name: String, shapes| StepNode {
+            name,
             color: facies.map(color),
             layer: Some(ascii(&rules.facies)),
             description: facies.map(description),
             shapes,
             children: Vec::new(),
+        };
+        if shapes.len() == 1 {
+            return Ok(Some(part(rules.name.clone(), shapes)));
+        }
+        // Each piece is a part: FreeCAD, build123d and cadquery lose the colour of a part of several solids.
+        let names = solid_names(&rules.name, shapes.len());
+        let pieces = names.into_iter().zip(shapes);
+        Ok(Some(StepNode {
+            name: rules.name.clone(),
+            description: facies.map(description),
+            children: pieces
+                .map(|(name, shape)| part(name, vec![shape]))
+                .collect(),
+            ..StepNode::default()
         }))
     }
 }

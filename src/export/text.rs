@@ -2,7 +2,12 @@
 
 /// Transliterates to printable ASCII; never empty.
 pub(crate) fn ascii(text: &str) -> String {
-    let plain: String = deunicode::deunicode(text)
+    // Line breaks and tabs separate words; deunicode would swallow them.
+    let spaced: String = text
+        .chars()
+        .map(|c| if c.is_whitespace() { ' ' } else { c })
+        .collect();
+    let plain: String = deunicode::deunicode(&spaced)
         .chars()
         .map(|c| if matches!(c, ' '..='~') { c } else { ' ' })
         .collect();
