@@ -37,7 +37,7 @@ impl Role {
 /// A trough: a base with u across and v along, closed by a top ruled between its two rims.
 ///
 /// The rims (u = first and last) are the *same* control points in both sheets, so that base and top
-/// share their edges exactly ([J19] Fig. 4: CP2 of the top is CP7 of the base). The two ends are
+/// share their edges exactly (\[J19\] Fig. 4: CP2 of the top is CP7 of the base). The two ends are
 /// vertical and flat: sections are.
 #[derive(Clone, Debug)]
 pub struct Trough {

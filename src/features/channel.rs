@@ -1,4 +1,4 @@
-//! Channels: a cubic base carried along a trajectory, closed by a ruled top ([J19] Fig. 4a, 4c, 5).
+//! Channels: a cubic base carried along a trajectory, closed by a ruled top (\[J19\] Fig. 4a, 4c, 5).
 //!
 //! The base has degree 3 across and 3 along (1 along a straight, constant channel); seven control
 //! points across, the middle three collinear, so that the surface passes exactly through the thalweg.

@@ -1,4 +1,4 @@
-//! Extrusion: a template carried along a trajectory becomes one surface ([J19] §2.4.1, Fig. 5–6).
+//! Extrusion: a template carried along a trajectory becomes one surface (\[J19\] §2.4.1, Fig. 5–6).
 //!
 //! u runs across the section, v along the trajectory. Sections stand perpendicular to the trajectory
 //! and upright (z is up, no twist). A net of sections put on a sinuous line would cut its bends, so

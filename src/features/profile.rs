@@ -1,6 +1,6 @@
 //! Profiles: a template's parameter as a function of the fraction of a trajectory's length, 0 to 1.
 //!
-//! [J19] §2.4.1 lets every parameter of a template vary along its trajectory. Values between the
+//! \[J19\] §2.4.1 lets every parameter of a template vary along its trajectory. Values between the
 //! entries of a list are linear; beyond its ends the first and the last value hold.
 
 use std::fmt;

@@ -1,4 +1,4 @@
-//! The cross-section of a channel base: a cubic B-spline through its thalweg ([J19] §2.4.1, Fig. 4a).
+//! The cross-section of a channel base: a cubic B-spline through its thalweg (\[J19\] §2.4.1, Fig. 4a).
 //!
 //! Section coordinates: `x` across, left bank negative, looking down the trajectory; `y` up, 0 at the
 //! rims. Metres and radians. Seven control points on a uniform clamped knot vector:

@@ -1,4 +1,4 @@
-//! Trajectories: the plan-view lines along which templates are carried ([J19] §2.4.1, Fig. 5).
+//! Trajectories: the plan-view lines along which templates are carried (\[J19\] §2.4.1, Fig. 5).
 //!
 //! Arc length `s` in metres, direction θ in radians counterclockwise from east, curvature κ = dθ/ds
 //! (positive turns left). Every kind is kept the same way: samples exact in place, direction and
@@ -124,7 +124,7 @@ impl Trajectory {
         })
     }
 
-    /// The B-spline through points ([J19] Eq. 7–9), of the given degree or less if points are few.
+    /// The B-spline through points (\[J19\] Eq. 7–9), of the given degree or less if points are few.
     pub fn through(
         points: &[DVec2],
         degree: usize,
