@@ -87,7 +87,10 @@ impl Measured {
 
     /// The volume of all pieces of a volume (m³).
     pub fn size_of(&self, volume: usize) -> f64 {
-        self.pieces_of(volume).iter().map(|piece| piece.size).sum()
+        // From +0.0: the sum of nothing would be −0.0.
+        self.pieces_of(volume)
+            .iter()
+            .fold(0.0, |sum, piece| sum + piece.size)
     }
 }
 

@@ -239,8 +239,7 @@ fn facies_entry(parts: Parts<'_>, facies: &Facies, domain: f64) -> FaciesEntry {
     let is_ours = |volume: usize| realisation.volumes[volume].facies == facies.name;
     let total: f64 = (0..realisation.volumes.len())
         .filter(|volume| is_ours(*volume))
-        .map(|volume| measured.size_of(volume))
-        .sum();
+        .fold(0.0, |sum, volume| sum + measured.size_of(volume));
     FaciesEntry {
         name: facies.name.clone(),
         color: hex(facies),
