@@ -18,7 +18,7 @@ const OVERALL: usize = 4000;
 /// Probability that an integral of `owner` misses a right volume by more than its bound.
 const DOUBT: f64 = 1e-9;
 /// Samples of every face, so that one that happens to lie on a touching body is outvoted.
-const LEAST_A_FACE: usize = 3;
+const LEAST_A_FACE: usize = 2;
 
 /// What one point beside a face says.
 struct Beside {
