@@ -144,11 +144,6 @@ impl Owners {
         })
     }
 
-    /// Number of volumes, the background included.
-    pub fn volumes(&self) -> usize {
-        self.rules.len()
-    }
-
     /// The corners of the domain.
     pub fn domain(&self) -> (DVec3, DVec3) {
         (self.low, self.high)

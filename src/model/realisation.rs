@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::draws::{self, DrawnChannel, Rejected};
-use super::rules::{BACKGROUND, Rules, VolumeRules};
+use super::rules::{Rules, VolumeRules};
 use super::selection::Selection;
 use super::spec::{Feature, FeatureKind, Model, Selector};
 use crate::features::body::Trough;
@@ -282,9 +282,4 @@ fn counted(reasons: &[&'static str]) -> String {
         .map(|(reason, count)| format!("{reason}: {count}"))
         .collect();
     parts.join(", ")
-}
-
-/// The name of a volume that no instance has: the background's.
-pub fn background_name(realisation: &Realisation) -> &str {
-    &realisation.volumes[BACKGROUND].name
 }
