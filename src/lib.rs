@@ -8,3 +8,4 @@ pub mod export;
 pub mod features;
 pub mod model;
 pub mod nurbs;
+pub mod partition;

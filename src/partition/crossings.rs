@@ -1,0 +1,335 @@
+//! Crossings: where edges pass through sheets, where sheets cross each other, and where three sheets meet.
+//!
+//! The roots of edges come first, by halving, on their own. Branches are then followed from every root, and
+//! must end at roots; what is left to find are branches that close, or that come in from outside. A root is
+//! used exactly once from each sheet of its edge: a check that needs no reference.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::bounds::Bounds;
+use super::check::Faults;
+use super::hermite::{self, Branch, End, Node};
+use super::march::March;
+use super::pair::{Pair, Tolerances};
+use super::pierce::{Piercing, Root, Segment};
+use super::region::Regions;
+use super::seeds::Search;
+use super::sheet::Border;
+use super::solve::solve;
+
+/// An edge passing through a sheet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EdgeRoot {
+    pub(super) edge: usize,
+    pub(super) sheet: usize,
+    pub(super) root: Root,
+}
+
+/// A branch with its two sheets.
+#[derive(Clone, Debug)]
+pub(super) struct Crossing {
+    pub(super) sheets: [usize; 2],
+    pub(super) branch: Branch,
+}
+
+/// A branch passing through a third sheet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triple {
+    pub(super) crossing: usize,
+    pub(super) sheet: usize,
+    pub(super) t: f64,
+    pub(super) point: DVec3,
+}
+
+/// Everything that was found.
+#[derive(Debug)]
+pub(super) struct Crossings {
+    pub(super) roots: Vec<EdgeRoot>,
+    pub(super) crossings: Vec<Crossing>,
+    pub(super) triples: Vec<Triple>,
+}
+
+/// How far the end of a branch may be from the root that it ends at, as a fraction of the domain's size.
+const MATCH: f64 = 1e-8;
+
+/// A root as the start of a branch on one pair of sheets.
+#[derive(Clone, Copy)]
+struct Start {
+    root: usize,
+    /// Which of the pair's sheets has the edge.
+    side: usize,
+    border: Border,
+    q: [f64; 4],
+    point: DVec3,
+    used: bool,
+}
+
+struct Traced {
+    crossings: Vec<Crossing>,
+    faults: Faults,
+}
+
+impl Crossings {
+    pub(super) fn find(
+        regions: &Regions,
+        tolerances: Tolerances,
+        clip: Bounds,
+        faults: &mut Faults,
+    ) -> Self {
+        let roots = edge_roots(regions, tolerances, clip, faults);
+        let traced: Vec<Traced> = pairs(regions, &clip)
+            .into_par_iter()
+            .map(|sheets| trace(regions, sheets, &roots, tolerances, clip))
+            .collect();
+        let mut crossings = Vec::new();
+        for one in traced {
+            faults.add(&one.faults);
+            crossings.extend(one.crossings);
+        }
+        let found: Vec<(Vec<Triple>, usize)> = (0..crossings.len())
+            .into_par_iter()
+            .map(|at| triples(regions, &crossings, at, tolerances, clip))
+            .collect();
+        let mut all = Vec::new();
+        for (triples, undecided) in found {
+            faults.undecided += undecided;
+            all.extend(triples);
+        }
+        Self {
+            roots,
+            crossings,
+            triples: all,
+        }
+    }
+}
+
+/// Sheets of different regions whose boxes meet.
+fn pairs(regions: &Regions, clip: &Bounds) -> Vec<[usize; 2]> {
+    let sheets = &regions.sheets;
+    let mut pairs = Vec::new();
+    for (i, a) in sheets.iter().enumerate() {
+        for (j, b) in sheets.iter().enumerate().skip(i + 1) {
+            let near = a.bounds().meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
+            if near && a.region != b.region {
+                pairs.push([i, j]);
+            }
+        }
+    }
+    pairs
+}
+
+fn edge_roots(
+    regions: &Regions,
+    tolerances: Tolerances,
+    clip: Bounds,
+    faults: &mut Faults,
+) -> Vec<EdgeRoot> {
+    let of_edge = |edge: usize| {
+        let own = &regions.edges[edge];
+        let mut roots = Vec::new();
+        let mut undecided = 0;
+        if !own.bounds.meets(&clip) {
+            return (roots, undecided);
+        }
+        for (sheet, other) in regions.sheets.iter().enumerate() {
+            if other.region == own.region || !other.bounds().meets(&own.bounds) {
+                continue;
+            }
+            let found = Piercing::new(&own.segments, other, tolerances, clip).run();
+            undecided += found.undecided;
+            roots.extend(found.roots.into_iter().map(|root| EdgeRoot { edge, sheet, root }));
+        }
+        (roots, undecided)
+    };
+    let found: Vec<_> = (0..regions.edges.len()).into_par_iter().map(of_edge).collect();
+    let mut roots = Vec::new();
+    for (own, undecided) in found {
+        faults.undecided += undecided;
+        roots.extend(own);
+    }
+    roots
+}
+
+/// The branches of one pair of sheets.
+fn trace(
+    regions: &Regions,
+    sheets: [usize; 2],
+    roots: &[EdgeRoot],
+    tolerances: Tolerances,
+    clip: Bounds,
+) -> Traced {
+    let pair = Pair {
+        sheets: sheets.map(|at| &regions.sheets[at]),
+        tolerances,
+    };
+    let march = March { pair, clip };
+    let mut starts = starts(regions, sheets, roots);
+    let mut faults = Faults::default();
+    let mut branches = Vec::new();
+    for at in 0..starts.len() {
+        if starts[at].used {
+            continue;
+        }
+        let Some(node) = inwards(&pair, &starts[at]) else {
+            continue;
+        };
+        let Some(mut branch) = march.from_root(node, starts[at].root) else {
+            continue;
+        };
+        starts[at].used = true;
+        finish(&mut branch, &mut starts, tolerances, &mut faults);
+        branches.push(branch);
+    }
+    let found = |node: Node| march.through(node);
+    let mut search = Search::new(pair, clip, branches, found);
+    search.run();
+    faults.undecided += search.undecided + usize::from(search.gave_up());
+    let first_new = search.branches.iter().position(|branch| !matches!(branch.ends[0], End::AtRoot(_)));
+    let mut branches = search.branches;
+    for branch in branches.iter_mut().skip(first_new.unwrap_or(usize::MAX)) {
+        finish(branch, &mut starts, tolerances, &mut faults);
+    }
+    faults.unused_roots += starts.iter().filter(|start| !start.used).count();
+    let crossings = branches
+        .into_iter()
+        .map(|branch| Crossing { sheets, branch })
+        .collect();
+    Traced { crossings, faults }
+}
+
+fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Start> {
+    let mut starts = Vec::new();
+    for (root, found) in roots.iter().enumerate() {
+        let edge = &regions.edges[found.edge];
+        for side in &edge.sides {
+            for own in 0..2 {
+                if side.sheet != sheets[own] || found.sheet != sheets[1 - own] {
+                    continue;
+                }
+                let at = side.at(&regions.sheets, found.root.t).0;
+                let (a, b) = if own == 0 { (at, found.root.at) } else { (found.root.at, at) };
+                starts.push(Start {
+                    root,
+                    side: own,
+                    border: side.border,
+                    q: [a.x, a.y, b.x, b.y],
+                    point: found.root.point,
+                    used: false,
+                });
+            }
+        }
+    }
+    starts
+}
+
+/// The node at a root, running into the sheet that has the edge.
+fn inwards(pair: &Pair<'_>, start: &Start) -> Option<Node> {
+    let node = pair.node(start.q, None)?;
+    let across = node.first[3 + 2 * start.side + start.border.axis()];
+    Some(if (across < 0.0) == start.border.is_high() { node } else { node.reversed() })
+}
+
+/// Gives ends on borders their roots.
+fn finish(branch: &mut Branch, starts: &mut [Start], tolerances: Tolerances, faults: &mut Faults) {
+    for which in 0..2 {
+        let End::AtBorder(side, border) = branch.ends[which] else {
+            faults.tangents += usize::from(branch.ends[which] == End::Tangent);
+            continue;
+        };
+        let node = if which == 0 { &branch.nodes[0] } else { &branch.nodes[branch.nodes.len() - 1] };
+        let point = node.point();
+        let nearest = starts
+            .iter_mut()
+            .filter(|start| !start.used && start.side == side && start.border == border)
+            .map(|start| (start.point.distance(point), start))
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match nearest {
+            Some((distance, start)) if distance < MATCH * tolerances.scale => {
+                start.used = true;
+                branch.ends[which] = End::AtRoot(start.root);
+            }
+            _ => faults.lost_ends += 1,
+        }
+    }
+}
+
+/// Where a branch passes through sheets of a third region, and how many places are undecided.
+fn triples(
+    regions: &Regions,
+    crossings: &[Crossing],
+    at: usize,
+    tolerances: Tolerances,
+    clip: Bounds,
+) -> (Vec<Triple>, usize) {
+    let crossing = &crossings[at];
+    let branch = &crossing.branch;
+    let segments: Vec<Segment> = (0..branch.pieces())
+        .map(|piece| {
+            let points = branch.control(piece).map(|c| hermite::space(&c).extend(1.0));
+            Segment::new(points, [branch.lengths[piece], branch.lengths[piece + 1]])
+        })
+        .collect();
+    let bounds = segments
+        .iter()
+        .fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()));
+    let own = crossing.sheets.map(|sheet| regions.sheets[sheet].region);
+    let mut triples = Vec::new();
+    let mut undecided = 0;
+    for (sheet, other) in regions.sheets.iter().enumerate() {
+        if own.contains(&other.region) || !other.bounds().meets(&bounds) {
+            continue;
+        }
+        let found = Piercing::new(&segments, other, tolerances, clip).run();
+        undecided += found.undecided;
+        for root in found.roots {
+            match refine(regions, crossing, sheet, &root, tolerances) {
+                Some((t, point)) => triples.push(Triple { crossing: at, sheet, t, point }),
+                None => undecided += 1,
+            }
+        }
+    }
+    (triples, undecided)
+}
+
+/// The common point of three sheets near a root of a computed branch, and its place on the branch.
+fn refine(
+    regions: &Regions,
+    crossing: &Crossing,
+    third: usize,
+    root: &Root,
+    tolerances: Tolerances,
+) -> Option<(f64, DVec3)> {
+    let sheets = [crossing.sheets[0], crossing.sheets[1], third].map(|at| &regions.sheets[at]);
+    let value = crossing.branch.value(root.t);
+    let mut q = [value[3], value[4], value[5], value[6], root.at.x, root.at.y];
+    for _ in 0..10 {
+        let jets = [0, 1, 2].map(|k| sheets[k].first_jet(q[2 * k], q[2 * k + 1]));
+        let mut matrix = [[0.0; 6]; 6];
+        let mut right = [0.0; 6];
+        for (block, other) in [1, 2].into_iter().enumerate() {
+            let gap = jets[0].0 - jets[other].0;
+            for i in 0..3 {
+                let row = 3 * block + i;
+                matrix[row][0] = jets[0].1[i];
+                matrix[row][1] = jets[0].2[i];
+                matrix[row][2 * other] = -jets[other].1[i];
+                matrix[row][2 * other + 1] = -jets[other].2[i];
+                right[row] = -gap[i];
+            }
+        }
+        let step = solve(matrix, right)?;
+        for i in 0..6 {
+            q[i] += step[i];
+        }
+        let residual: f64 = right.iter().map(|r| r.abs()).sum();
+        let moved = (jets[0].1 * step[0] + jets[0].2 * step[1]).length();
+        if residual < 2.0 * tolerances.residual && moved < tolerances.step {
+            let point = sheets[0].point(q[0], q[1]);
+            let near = point.distance(root.point) < 1e-3 * tolerances.scale;
+            let (t, distance) = crossing.branch.project(point);
+            return (near && distance < MATCH * tolerances.scale).then_some((t, point));
+        }
+    }
+    None
+}

@@ -1,0 +1,241 @@
+//! Computed curves: pieces of degree 5 through points of an intersection, with its first and second
+//! derivatives by arc length. One parameter serves the curve in space and its images on both sheets.
+
+use glam::{DVec2, DVec3};
+
+/// What runs along a curve: x, y, z, then (u, v) on the first sheet, then (u, v) on the second.
+pub(super) const PARTS: usize = 7;
+
+/// A point of an intersection curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Node {
+    pub(super) value: [f64; PARTS],
+    /// First derivative by arc length.
+    pub(super) first: [f64; PARTS],
+    /// Second derivative by arc length.
+    pub(super) second: [f64; PARTS],
+    /// Sine of the angle between the sheets.
+    pub(super) sine: f64,
+}
+
+impl Node {
+    pub(super) fn point(&self) -> DVec3 {
+        space(&self.value)
+    }
+
+    pub(super) fn tangent(&self) -> DVec3 {
+        space(&self.first)
+    }
+
+    pub(super) fn curvature(&self) -> DVec3 {
+        space(&self.second)
+    }
+
+    /// The parameters on both sheets.
+    pub(super) fn parameters(&self) -> [f64; 4] {
+        std::array::from_fn(|i| self.value[3 + i])
+    }
+
+    /// The same point, run through the other way.
+    pub(super) fn reversed(mut self) -> Self {
+        for d in &mut self.first {
+            *d = -*d;
+        }
+        self
+    }
+}
+
+pub(super) fn space(parts: &[f64; PARTS]) -> DVec3 {
+    DVec3::new(parts[0], parts[1], parts[2])
+}
+
+pub(super) fn on_sheet(parts: &[f64; PARTS], side: usize) -> DVec2 {
+    DVec2::new(parts[3 + 2 * side], parts[4 + 2 * side])
+}
+
+/// The six control points of the piece from one node to the next, `length` long.
+pub(super) fn control(a: &Node, b: &Node, length: f64) -> [[f64; PARTS]; 6] {
+    let (h, k) = (length / 5.0, length * length / 20.0);
+    let mut points = [[0.0; PARTS]; 6];
+    for i in 0..PARTS {
+        points[0][i] = a.value[i];
+        points[1][i] = a.value[i] + h * a.first[i];
+        points[2][i] = a.value[i] + 2.0 * h * a.first[i] + k * a.second[i];
+        points[3][i] = b.value[i] - 2.0 * h * b.first[i] + k * b.second[i];
+        points[4][i] = b.value[i] - h * b.first[i];
+        points[5][i] = b.value[i];
+    }
+    points
+}
+
+/// The piece's value at a fraction of its length.
+pub(super) fn at(points: &[[f64; PARTS]; 6], s: f64) -> [f64; PARTS] {
+    let r = 1.0 - s;
+    let (r2, s2) = (r * r, s * s);
+    let weights = [
+        r2 * r2 * r,
+        5.0 * r2 * r2 * s,
+        10.0 * r2 * r * s2,
+        10.0 * r2 * s2 * s,
+        5.0 * r * s2 * s2,
+        s2 * s2 * s,
+    ];
+    std::array::from_fn(|i| (0..6).map(|k| weights[k] * points[k][i]).sum())
+}
+
+/// The piece's derivative by the fraction of its length.
+pub(super) fn slope(points: &[[f64; PARTS]; 6], s: f64) -> [f64; PARTS] {
+    let r = 1.0 - s;
+    let (r2, s2) = (r * r, s * s);
+    let weights = [
+        r2 * r2,
+        4.0 * r2 * r * s,
+        6.0 * r2 * s2,
+        4.0 * r * s2 * s,
+        s2 * s2,
+    ];
+    std::array::from_fn(|i| {
+        let leg = |k: usize| points[k + 1][i] - points[k][i];
+        (0..5).map(|k| 5.0 * weights[k] * leg(k)).sum()
+    })
+}
+
+/// A curve on two sheets, computed.
+#[derive(Clone, Debug)]
+pub(super) struct Branch {
+    pub(super) nodes: Vec<Node>,
+    /// Arc length at each node, from 0.
+    pub(super) lengths: Vec<f64>,
+    /// Farthest from both sheets between nodes, measured (m).
+    pub(super) deviation: f64,
+    /// How its two ends end; the same for a closed one.
+    pub(super) ends: [End; 2],
+}
+
+/// How a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum End {
+    /// On a border of one of its sheets, at a root of an edge.
+    AtRoot(usize),
+    /// On a border where no root of its edge is known.
+    AtBorder(usize, super::sheet::Border),
+    /// Where it began.
+    Closed,
+    /// Beyond where anything is wanted.
+    Outside,
+    /// Where the sheets touch.
+    Tangent,
+}
+
+impl Branch {
+    pub(super) fn length(&self) -> f64 {
+        self.lengths[self.lengths.len() - 1]
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.ends[0] == End::Closed
+    }
+
+    /// Number of pieces.
+    pub(super) fn pieces(&self) -> usize {
+        self.nodes.len() - 1
+    }
+
+    pub(super) fn control(&self, piece: usize) -> [[f64; PARTS]; 6] {
+        let length = self.lengths[piece + 1] - self.lengths[piece];
+        control(&self.nodes[piece], &self.nodes[piece + 1], length)
+    }
+
+    fn locate(&self, t: f64) -> (usize, f64) {
+        let inner = &self.lengths[1..self.lengths.len() - 1];
+        let piece = inner.partition_point(|length| *length <= t);
+        let (from, to) = (self.lengths[piece], self.lengths[piece + 1]);
+        (piece, (t - from) / (to - from))
+    }
+
+    pub(super) fn value(&self, t: f64) -> [f64; PARTS] {
+        let (piece, s) = self.locate(t);
+        at(&self.control(piece), s)
+    }
+
+    /// The derivative by arc length.
+    pub(super) fn derivative(&self, t: f64) -> [f64; PARTS] {
+        let (piece, s) = self.locate(t);
+        let length = self.lengths[piece + 1] - self.lengths[piece];
+        slope(&self.control(piece), s).map(|d| d / length)
+    }
+
+    /// The parameter of the nearest point to one that lies near the branch, and its distance.
+    pub(super) fn project(&self, p: DVec3) -> (f64, f64) {
+        let mut best = (0.0, f64::INFINITY);
+        for piece in 0..self.pieces() {
+            let length = self.lengths[piece + 1] - self.lengths[piece];
+            let from = self.nodes[piece].point();
+            let reach = best.1 + 1.5 * length;
+            if from.distance_squared(p) > reach * reach {
+                continue;
+            }
+            let (s, distance) = project(&self.control(piece), p);
+            if distance < best.1 {
+                best = (self.lengths[piece] + s * length, distance);
+            }
+        }
+        best
+    }
+
+    /// The same curve as flat knots and control points: C2, knots of multiplicity 3.
+    pub(super) fn spline(&self) -> (Vec<f64>, Vec<[f64; PARTS]>) {
+        let last = self.nodes.len() - 1;
+        let mut knots = vec![0.0; 6];
+        for length in &self.lengths[1..last] {
+            knots.extend([*length; 3]);
+        }
+        knots.extend([self.lengths[last]; 6]);
+        let mut points = Vec::with_capacity(3 * self.nodes.len());
+        for (i, node) in self.nodes.iter().enumerate() {
+            let back = if i > 0 { self.lengths[i - 1] - self.lengths[i] } else { 0.0 };
+            let ahead = if i < last { self.lengths[i + 1] - self.lengths[i] } else { 0.0 };
+            // Blossoms of the node's Taylor polynomial at the knots around it.
+            let arguments = if i == 0 {
+                [[0.0; 5], [0.0, 0.0, 0.0, 0.0, ahead], [0.0, 0.0, 0.0, ahead, ahead]]
+            } else if i == last {
+                [[back, back, 0.0, 0.0, 0.0], [back, 0.0, 0.0, 0.0, 0.0], [0.0; 5]]
+            } else {
+                [
+                    [back, back, 0.0, 0.0, 0.0],
+                    [back, 0.0, 0.0, 0.0, ahead],
+                    [0.0, 0.0, 0.0, ahead, ahead],
+                ]
+            };
+            points.extend(arguments.map(|at| blossom(node, at)));
+        }
+        (knots, points)
+    }
+}
+
+/// The symmetric multi-affine form of a node's quadratic Taylor polynomial, taken as one of degree 5.
+fn blossom(node: &Node, at: [f64; 5]) -> [f64; PARTS] {
+    let sum: f64 = at.iter().sum();
+    let squares: f64 = at.iter().map(|x| x * x).sum();
+    let first = sum / 5.0;
+    let second = (sum * sum - squares) / 2.0 / 10.0;
+    std::array::from_fn(|i| node.value[i] + first * node.first[i] + 0.5 * second * node.second[i])
+}
+
+/// The fraction of a piece that is nearest to a point, and its distance.
+pub(super) fn project(points: &[[f64; PARTS]; 6], p: DVec3) -> (f64, f64) {
+    let (start, end) = (space(&points[0]), space(&points[5]));
+    let chord = end - start;
+    let mut s = ((p - start).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
+    for _ in 0..8 {
+        let here = space(&at(points, s));
+        let along = space(&slope(points, s));
+        let step = (p - here).dot(along) / along.length_squared();
+        let next = (s + step).clamp(0.0, 1.0);
+        if (next - s).abs() < 1e-15 {
+            break;
+        }
+        s = next;
+    }
+    (s, space(&at(points, s)).distance(p))
+}

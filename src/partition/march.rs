@@ -1,0 +1,275 @@
+//! Following an intersection curve: steps along its tangent, each corrected by Newton's method and kept only
+//! if the piece that it adds stays on both sheets.
+
+use super::bounds::Bounds;
+use super::hermite::{self, Branch, End, Node};
+use super::pair::{Closing, Pair};
+use super::sheet::Border;
+
+/// Most steps of one branch.
+const MOST_STEPS: usize = 20_000;
+/// Samples of a piece while it is tried.
+const SAMPLES: usize = 3;
+/// Samples of a finished piece.
+const FINAL_SAMPLES: usize = 7;
+/// Smallest step, as a fraction of the domain's size.
+const LEAST_STEP: f64 = 1e-8;
+/// First step, as a fraction of the domain's size.
+const FIRST_STEP: f64 = 1e-3;
+
+/// Follows the curves of one pair of sheets within a box.
+pub(super) struct March<'a> {
+    pub(super) pair: Pair<'a>,
+    pub(super) clip: Bounds,
+}
+
+/// One direction's worth of nodes after the start, with the lengths between them.
+struct Run {
+    nodes: Vec<Node>,
+    lengths: Vec<f64>,
+    end: End,
+}
+
+enum Step {
+    To(Node, f64, Option<(usize, Border)>),
+    Closes(Node, f64),
+    Stuck,
+}
+
+impl March<'_> {
+    /// The whole branch through a point inside both sheets.
+    pub(super) fn through(&self, start: Node) -> Option<Branch> {
+        let forward = self.run(start, start);
+        if forward.end == End::Closed {
+            let ends = [End::Closed; 2];
+            return Some(self.branch(vec![start], vec![], forward, ends));
+        }
+        let back = self.run(start.reversed(), start);
+        let ends = [back.end, forward.end];
+        let nodes: Vec<Node> = back.nodes.iter().rev().map(|node| node.reversed()).collect();
+        let lengths: Vec<f64> = back.lengths.iter().rev().copied().collect();
+        let nodes = [nodes, vec![start]].concat();
+        Some(self.branch(nodes, lengths, forward, ends)).filter(|branch| branch.nodes.len() > 1)
+    }
+
+    /// The branch that starts at a root on a border and runs inwards.
+    pub(super) fn from_root(&self, start: Node, root: usize) -> Option<Branch> {
+        let run = self.run(start, start);
+        let ends = [End::AtRoot(root), run.end];
+        Some(self.branch(vec![start], vec![], run, ends)).filter(|branch| branch.nodes.len() > 1)
+    }
+
+    fn branch(
+        &self,
+        mut nodes: Vec<Node>,
+        mut between: Vec<f64>,
+        run: Run,
+        ends: [End; 2],
+    ) -> Branch {
+        nodes.extend(run.nodes);
+        between.extend(run.lengths);
+        let mut lengths = Vec::with_capacity(nodes.len());
+        lengths.push(0.0);
+        for (i, length) in between.iter().enumerate() {
+            lengths.push(lengths[i] + length);
+        }
+        let mut deviation: f64 = 0.0;
+        for (pair, length) in nodes.windows(2).zip(&between) {
+            let one = self.pair.deviation(&pair[0], &pair[1], *length, FINAL_SAMPLES);
+            deviation = deviation.max(one);
+        }
+        Branch {
+            nodes,
+            lengths,
+            deviation,
+            ends,
+        }
+    }
+
+    fn run(&self, start: Node, origin: Node) -> Run {
+        let mut run = Run {
+            nodes: Vec::new(),
+            lengths: Vec::new(),
+            end: End::Tangent,
+        };
+        let mut here = start;
+        let mut step = FIRST_STEP * self.pair.tolerances.scale;
+        for count in 0..MOST_STEPS {
+            match self.advance(&here, &origin, &mut step, count) {
+                Step::Stuck => return run,
+                Step::Closes(node, length) => {
+                    run.nodes.push(node);
+                    run.lengths.push(length);
+                    run.end = End::Closed;
+                    return run;
+                }
+                Step::To(node, length, border) => {
+                    if length > self.pair.tolerances.same * 0.01 {
+                        run.nodes.push(node);
+                        run.lengths.push(length);
+                    }
+                    if let Some((side, border)) = border {
+                        run.end = End::AtBorder(side, border);
+                        return run;
+                    }
+                    if !self.clip.holds(node.point()) {
+                        run.end = End::Outside;
+                        return run;
+                    }
+                    here = node;
+                }
+            }
+        }
+        run
+    }
+
+    /// One accepted step; `step` is the length to try, and then the next one's.
+    fn advance(&self, here: &Node, origin: &Node, step: &mut f64, count: usize) -> Step {
+        let tolerances = &self.pair.tolerances;
+        for _ in 0..40 {
+            if *step < LEAST_STEP * tolerances.scale {
+                return Step::Stuck;
+            }
+            let h = *step;
+            let mut q = here.parameters();
+            for (i, value) in q.iter_mut().enumerate() {
+                *value += h * here.first[3 + i] + 0.5 * h * h * here.second[3 + i];
+            }
+            let (tangent, point) = (here.tangent(), here.point());
+            let target = point + h * tangent + 0.5 * h * h * here.curvature();
+            if !self.pair.newton(&mut q, Closing::Plane(tangent, target), 8) {
+                *step *= 0.5;
+                continue;
+            }
+            let border = match self.border(here, &mut q) {
+                Crossing::None => None,
+                Crossing::At(side, border) => Some((side, border)),
+                Crossing::Failed => {
+                    *step *= 0.5;
+                    continue;
+                }
+            };
+            let Some(node) = self.pair.node(q, Some(tangent)) else {
+                *step *= 0.5;
+                continue;
+            };
+            let chord = node.point() - point;
+            let length = chord.length();
+            if border.is_some() && length < 0.01 * tolerances.same {
+                return Step::To(node, 0.0, border);
+            }
+            if chord.dot(tangent) < 0.8 * length || node.tangent().dot(tangent) < 0.7 {
+                *step *= 0.5;
+                continue;
+            }
+            let length = arc(here, &node);
+            let deviation = self.pair.deviation(here, &node, length, SAMPLES);
+            let ratio = (tolerances.curve / deviation.max(1e-300)).powf(1.0 / 6.0);
+            if !(deviation <= tolerances.curve) {
+                *step = (0.7 * h).min(length.min(h) * (0.85 * ratio).max(0.25));
+                continue;
+            }
+            if count > 1
+                && let Some(closing) = self.closes(here, &node, length, origin)
+            {
+                return closing;
+            }
+            *step = length * (0.9 * ratio).clamp(0.5, 2.0);
+            return Step::To(node, length, border);
+        }
+        Step::Stuck
+    }
+
+    /// Whether the piece from here to the next node passes through where the branch began.
+    fn closes(&self, here: &Node, next: &Node, length: f64, origin: &Node) -> Option<Step> {
+        let offset = origin.point() - here.point();
+        if offset.length_squared() > 4.0 * length * length {
+            return None;
+        }
+        let points = hermite::control(here, next, length);
+        let (s, distance) = hermite::project(&points, origin.point());
+        let near = distance < 1e3 * self.pair.tolerances.curve;
+        // The same start may be given reversed.
+        let end = if origin.tangent().dot(here.tangent()) < 0.0 {
+            origin.reversed()
+        } else {
+            *origin
+        };
+        let same_place = (0..4).all(|i| {
+            let at = hermite::at(&points, s)[3 + i];
+            let sheet = self.pair.sheets[i / 2];
+            (at - end.value[3 + i]).abs() < 1e-3 * sheet.length(i % 2)
+        });
+        if !(near && same_place && s > 0.0 && end.tangent().dot(here.tangent()) > 0.5) {
+            return None;
+        }
+        let length = arc(here, &end);
+        let tolerances = &self.pair.tolerances;
+        if length < tolerances.same {
+            return None;
+        }
+        (self.pair.deviation(here, &end, length, SAMPLES) <= tolerances.curve)
+            .then_some(Step::Closes(end, length))
+    }
+
+    /// Pulls parameters beyond a border back onto it.
+    fn border(&self, here: &Node, q: &mut [f64; 4]) -> Crossing {
+        let from = here.parameters();
+        let sheets = self.pair.sheets;
+        let overshoot = |q: &[f64; 4], except: Option<usize>| {
+            let mut first: Option<(f64, usize, bool)> = None;
+            for i in (0..4).filter(|i| Some(*i) != except) {
+                let (sheet, axis) = (sheets[i / 2], i % 2);
+                let slack = 1e-12 * sheet.length(axis);
+                let high = q[i] > sheet.high(axis) + slack;
+                if !high && q[i] >= sheet.low(axis) - slack {
+                    continue;
+                }
+                let bound = if high { sheet.high(axis) } else { sheet.low(axis) };
+                let part = (bound - from[i]) / (q[i] - from[i]);
+                if first.is_none_or(|(least, _, _)| part < least) {
+                    first = Some((part, i, high));
+                }
+            }
+            first
+        };
+        let Some(mut crossing) = overshoot(q, None) else {
+            return Crossing::None;
+        };
+        for _ in 0..4 {
+            let (part, i, high) = crossing;
+            let (sheet, axis) = (sheets[i / 2], i % 2);
+            let bound = if high { sheet.high(axis) } else { sheet.low(axis) };
+            let part = part.clamp(0.0, 1.0);
+            let mut at: [f64; 4] = std::array::from_fn(|k| from[k] + part * (q[k] - from[k]));
+            if !self.pair.newton(&mut at, Closing::Fixed(i, bound), 14) {
+                return Crossing::Failed;
+            }
+            match overshoot(&at, Some(i)) {
+                None => {
+                    *q = at;
+                    return Crossing::At(i / 2, Border::of(axis, high));
+                }
+                Some(earlier) => crossing = earlier,
+            }
+        }
+        Crossing::Failed
+    }
+}
+
+enum Crossing {
+    None,
+    At(usize, Border),
+    Failed,
+}
+
+/// Arc length between two nodes from chord and tangents, as on a circle.
+fn arc(a: &Node, b: &Node) -> f64 {
+    let chord = a.point().distance(b.point());
+    let turn = a.tangent().dot(b.tangent()).clamp(-1.0, 1.0).acos();
+    if turn < 1e-6 {
+        chord
+    } else {
+        chord * (0.5 * turn) / (0.5 * turn).sin()
+    }
+}

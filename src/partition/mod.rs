@@ -1,0 +1,204 @@
+//! The partition kernel: an exact arrangement of surfaces, labelled by a rule, as finished topology.
+//!
+//! It is not a general Boolean operation. Every sheet gets one planar arrangement, in its own (u, v), of the
+//! curves that lie on it; what lies around each curve is labelled by the model's rule, not by geometry; solids
+//! are connected components of labelled half-faces.
+//!
+//! 1. `region`, `sheet`, `patch`: surfaces as Bézier patches with a box tree; sides along which the sheets of
+//!    a region join are known edges.
+//! 2. `pierce`, `seeds`, `march`, `crossings`: where edges pass through sheets, where sheets cross, where three
+//!    meet. Curves are pieces of degree 5 with one parameter in space and on both sheets, and a measured
+//!    deviation.
+//! 3. `tracks`, `arcs`: curves cut at vertices, each made once; sectors around each piece, labelled.
+//! 4. `faces`, `solids`: half-edges linked by angle into loops, loops into faces, faces into solids.
+//! 5. `quadrature`, `check`: volumes and areas, and counts of whatever contradicts itself.
+//!
+//! **Limits.** Sheets of different regions must cross at an angle or stay apart. Where they touch, or run along
+//! each other, a count in [`Faults`] is not zero and the result must not be used.
+
+mod arcs;
+mod bounds;
+mod check;
+mod crossings;
+mod faces;
+mod hermite;
+mod march;
+mod pair;
+mod patch;
+mod pierce;
+mod quadrature;
+mod region;
+mod seeds;
+mod sheet;
+mod solids;
+mod solve;
+mod topology;
+mod tracks;
+
+#[cfg(test)]
+mod tests;
+
+use crate::nurbs::enclosure::EnclosureError;
+use glam::DVec3;
+
+pub use check::Faults;
+pub use quadrature::Integral;
+pub use region::Region;
+pub use topology::{
+    CurveShape, Edge, Face, FaceSample, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
+};
+
+/// The volume that holds a place; `None` outside of the domain.
+pub type Label = Option<usize>;
+
+/// How to partition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// How far computed curves may be from their sheets, against the usual 1e-11 of the domain's diagonal.
+    pub tightness: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { tightness: 1.0 }
+    }
+}
+
+/// Why there is nothing to partition.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PartitionError {
+    /// The first region is no box.
+    #[error("the first region must be the domain's box, with a volume")]
+    NoDomain,
+    /// Surfaces that are no closed shell.
+    #[error("the surfaces of region {region} are no closed shell: {source}")]
+    Shell {
+        /// The region's index.
+        region: usize,
+        /// Where it is open.
+        source: EnclosureError,
+    },
+    /// A side that is the side of no other surface, point by point at equal parameters.
+    #[error("region {region} is open from {from} to {to}: sides must join along their whole length, with parameters in proportion")]
+    Open {
+        /// The region's index.
+        region: usize,
+        /// Where the side starts.
+        from: DVec3,
+        /// Where the side ends.
+        to: DVec3,
+    },
+    /// A surface of too high a degree.
+    #[error("a surface of region {region} has degrees {} × {}; at most 7 is possible", degrees[0], degrees[1])]
+    Degree {
+        /// The region's index.
+        region: usize,
+        /// Its degrees in u and v.
+        degrees: [usize; 2],
+    },
+    /// A sheet that does not separate inside from outside.
+    #[error("sheet {sheet} of region {region} does not have the region on one side only")]
+    NoSides {
+        /// The region's index.
+        region: usize,
+        /// The sheet's index.
+        sheet: usize,
+    },
+}
+
+/// A partition: finished topology, and what contradicts itself in it.
+#[derive(Clone, Debug)]
+pub struct Partition {
+    /// Vertices, edges, faces and solids.
+    pub topology: Topology,
+    /// Zero everywhere if the topology may be used.
+    pub faults: Faults,
+    /// Pairs of regions whose sheets cross inside the domain.
+    pub crossing_regions: Vec<(usize, usize)>,
+    /// Computed curves.
+    pub branches: usize,
+    /// Seconds per stage.
+    pub timings: Vec<(&'static str, std::time::Duration)>,
+}
+
+/// How far beyond the domain curves are followed, as a fraction of its diagonal.
+const MARGIN: f64 = 5e-4;
+
+/// Partitions the domain (region 0) by all other regions, and joins what has the same label.
+///
+/// `labels` names the volume of a place, given for each region whether it holds the place.
+pub fn partition(
+    regions: Vec<Region>,
+    labels: &(dyn Fn(&[bool]) -> Label + Sync),
+    options: &Options,
+) -> Result<Partition, PartitionError> {
+    let mut clock = Clock::start();
+    let regions = region::Regions::new(regions)?;
+    let scale = regions.domain.diagonal();
+    let tolerances = pair::Tolerances::new(scale, options.tightness);
+    let clip = regions.domain.grown(MARGIN * scale);
+    clock.lap("regions");
+    let mut faults = Faults::default();
+    let crossings = crossings::Crossings::find(&regions, tolerances, clip, &mut faults);
+    clock.lap("crossings");
+    let geometry = tracks::Geometry {
+        regions: &regions,
+        crossings: &crossings,
+    };
+    let tracks = tracks::Tracks::new(&regions, &crossings, tolerances, &mut faults);
+    let arcs = arcs::arcs(geometry, &tracks, labels, &mut faults);
+    clock.lap("labels");
+    let faces = faces::faces(geometry, &tracks, &arcs, &mut faults);
+    clock.lap("faces");
+    let integrals = quadrature::integrals(geometry, &tracks, &arcs, &faces);
+    clock.lap("integrals");
+    let parts = solids::Parts {
+        geometry,
+        tracks: &tracks,
+        arcs: &arcs,
+        faces: &faces,
+        integrals: &integrals,
+        tolerances,
+    };
+    let solids = parts.solids(&mut faults);
+    let topology = topology::Topology::new(&parts, solids);
+    clock.lap("solids");
+    let inside = |crossing: &&crossings::Crossing| {
+        crossing.branch.nodes.iter().any(|node| regions.domain.holds(node.point()))
+    };
+    let mut crossing_regions: Vec<(usize, usize)> = crossings
+        .crossings
+        .iter()
+        .filter(inside)
+        .map(|crossing| crossing.sheets.map(|sheet| regions.sheets[sheet].region))
+        .map(|[a, b]| (a.min(b), a.max(b)))
+        .collect();
+    crossing_regions.sort_unstable();
+    crossing_regions.dedup();
+    Ok(Partition {
+        topology,
+        faults,
+        crossing_regions,
+        branches: crossings.crossings.len(),
+        timings: clock.laps,
+    })
+}
+
+struct Clock {
+    last: std::time::Instant,
+    laps: Vec<(&'static str, std::time::Duration)>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self {
+            last: std::time::Instant::now(),
+            laps: Vec::new(),
+        }
+    }
+
+    fn lap(&mut self, name: &'static str) {
+        self.laps.push((name, self.last.elapsed()));
+        self.last = std::time::Instant::now();
+    }
+}

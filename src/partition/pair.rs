@@ -1,0 +1,174 @@
+//! Two sheets: points of their intersection by Newton's method, and the curve's derivatives there.
+
+use glam::DVec3;
+
+use super::hermite::Node;
+use super::sheet::Sheet;
+use super::solve::solve;
+
+/// What is small, in metres: fractions of the domain's size.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tolerances {
+    /// The diagonal of the domain.
+    pub(super) scale: f64,
+    /// How far a computed curve may be from its sheets.
+    pub(super) curve: f64,
+    /// Newton's method stops below this residual.
+    pub(super) residual: f64,
+    /// And below this step.
+    pub(super) step: f64,
+    /// Points nearer than this are the same.
+    pub(super) same: f64,
+}
+
+impl Tolerances {
+    pub(super) fn new(scale: f64, tightness: f64) -> Self {
+        Self {
+            scale,
+            curve: 1e-11 * scale * tightness,
+            residual: 1e-12 * scale,
+            step: 1e-11 * scale,
+            same: 1e-10 * scale,
+        }
+    }
+}
+
+/// Sheets nearer to parallel than this have no curve that can be followed.
+const PARALLEL: f64 = 1e-5;
+
+/// What closes the system of three equations `A(u, v) = B(s, t)` in four unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Closing {
+    /// The middle of both points lies on a plane, given by its normal and a point.
+    Plane(DVec3, DVec3),
+    /// One parameter has a value.
+    Fixed(usize, f64),
+}
+
+/// Two sheets of different regions.
+#[derive(Clone, Copy)]
+pub(super) struct Pair<'a> {
+    pub(super) sheets: [&'a Sheet; 2],
+    pub(super) tolerances: Tolerances,
+}
+
+impl Pair<'_> {
+    /// Moves parameters to a common point of both sheets. `false` if it does not converge near them.
+    pub(super) fn newton(&self, q: &mut [f64; 4], closing: Closing, most: usize) -> bool {
+        for _ in 0..most {
+            let (pa, au, av) = self.sheets[0].first_jet(q[0], q[1]);
+            let (pb, bu, bv) = self.sheets[1].first_jet(q[2], q[3]);
+            let gap = pa - pb;
+            let mut matrix = [[0.0; 4]; 4];
+            let mut right = [0.0; 4];
+            for i in 0..3 {
+                matrix[i] = [au[i], av[i], -bu[i], -bv[i]];
+                right[i] = -gap[i];
+            }
+            let mut residual = gap.abs().element_sum();
+            match closing {
+                Closing::Plane(normal, point) => {
+                    let half = 0.5 * normal;
+                    matrix[3] = [half.dot(au), half.dot(av), half.dot(bu), half.dot(bv)];
+                    right[3] = -normal.dot(0.5 * (pa + pb) - point);
+                    residual += right[3].abs();
+                }
+                Closing::Fixed(k, value) => {
+                    // In the units of the others, so that pivots compare.
+                    let unit = [au, av, bu, bv][k].length();
+                    matrix[3][k] = unit;
+                    right[3] = unit * (value - q[k]);
+                    residual += right[3].abs();
+                }
+            }
+            let Some(step) = solve(matrix, right) else {
+                return false;
+            };
+            for i in 0..4 {
+                q[i] += step[i];
+            }
+            if !self.is_near(q) {
+                return false;
+            }
+            let moved = (au * step[0] + av * step[1]).length() + (bu * step[2] + bv * step[3]).length();
+            if let Closing::Fixed(k, value) = closing {
+                q[k] = value;
+            }
+            if residual < self.tolerances.residual && moved < self.tolerances.step {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Within a third of a sheet's parameters beyond its borders.
+    fn is_near(&self, q: &[f64; 4]) -> bool {
+        (0..4).all(|i| {
+            let (sheet, axis) = (self.sheets[i / 2], i % 2);
+            let slack = 0.3 * sheet.length(axis);
+            sheet.low(axis) - slack < q[i] && q[i] < sheet.high(axis) + slack
+        })
+    }
+
+    /// The curve's node at a common point, running along `towards` if given. `None` where the sheets touch.
+    pub(super) fn node(&self, q: [f64; 4], towards: Option<DVec3>) -> Option<Node> {
+        let a = self.sheets[0].jet(q[0], q[1]);
+        let b = self.sheets[1].jet(q[2], q[3]);
+        let (na, nb) = (a.normal(), b.normal());
+        let (ga, gb) = (na.length_squared(), nb.length_squared());
+        let cross = na.cross(nb);
+        let length = cross.length();
+        let sine = length / (ga * gb).sqrt();
+        if !(sine > PARALLEL) {
+            return None;
+        }
+        let mut tangent = cross / length;
+        if towards.is_some_and(|d| d.dot(tangent) < 0.0) {
+            tangent = -tangent;
+        }
+        // Components of a tangent vector in a sheet's own parameters.
+        let split = |w: DVec3, u: DVec3, v: DVec3, n: DVec3, g: f64| {
+            [w.cross(v).dot(n) / g, u.cross(w).dot(n) / g]
+        };
+        let da = split(tangent, a.u, a.v, na, ga);
+        let db = split(tangent, b.u, b.v, nb, gb);
+        let bend = |jet: &super::patch::Jet, d: [f64; 2]| {
+            d[0] * d[0] * jet.uu + 2.0 * d[0] * d[1] * jet.uv + d[1] * d[1] * jet.vv
+        };
+        let (qa, qb) = (bend(&a, da), bend(&b, db));
+        // The curvature vector is normal to the tangent and has each sheet's normal curvature.
+        let determinant = tangent.dot(na.cross(nb));
+        let curvature =
+            (na.dot(qa) * nb.cross(tangent) + nb.dot(qb) * tangent.cross(na)) / determinant;
+        let ea = split(curvature - qa, a.u, a.v, na, ga);
+        let eb = split(curvature - qb, b.u, b.v, nb, gb);
+        let point = 0.5 * (a.p + b.p);
+        let join = |x: DVec3, y: [f64; 2], z: [f64; 2]| [x.x, x.y, x.z, y[0], y[1], z[0], z[1]];
+        Some(Node {
+            value: join(point, [q[0], q[1]], [q[2], q[3]]),
+            first: join(tangent, da, db),
+            second: join(curvature, ea, eb),
+            sine,
+        })
+    }
+
+    /// Farthest of a piece from both sheets, at some samples.
+    pub(super) fn deviation(&self, a: &Node, b: &Node, length: f64, samples: usize) -> f64 {
+        let points = super::hermite::control(a, b, length);
+        let mut most: f64 = 0.0;
+        for k in 1..=samples {
+            let value = super::hermite::at(&points, k as f64 / (samples + 1) as f64);
+            let p = super::hermite::space(&value);
+            for side in 0..2 {
+                let q = super::hermite::on_sheet(&value, side);
+                let gap = self.sheets[side].point(q.x, q.y).distance(p);
+                // `max` would drop a NaN.
+                if gap.is_nan() {
+                    return f64::INFINITY;
+                }
+                most = most.max(gap);
+            }
+        }
+        most
+    }
+}

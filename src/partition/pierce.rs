@@ -1,0 +1,267 @@
+//! Where a curve passes through a sheet.
+
+use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
+use smallvec::SmallVec;
+
+use super::bounds::Bounds;
+use super::pair::Tolerances;
+use super::patch::{Patch, cone};
+use super::sheet::{NodeKind, Sheet};
+use super::solve::solve;
+
+/// A curve's Bézier piece.
+#[derive(Clone, Debug)]
+pub(super) struct Segment {
+    /// Homogeneous control points.
+    points: SmallVec<[DVec4; 8]>,
+    /// Its part of the curve's parameters.
+    pub(super) t: [f64; 2],
+    bounds: Bounds,
+}
+
+/// A place where a curve passes through a sheet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Root {
+    /// On the curve.
+    pub(super) t: f64,
+    /// On the sheet.
+    pub(super) at: DVec2,
+    pub(super) point: DVec3,
+}
+
+/// Pieces that bend less than this sine are straight enough for one attempt.
+const STRAIGHT: f64 = 0.35;
+/// Halving ends at this fraction of the domain's size.
+const LEAST: f64 = 1e-7;
+/// Most halvings of one curve with one sheet.
+const MOST: usize = 100_000;
+
+impl Segment {
+    pub(super) fn new(points: impl IntoIterator<Item = DVec4>, t: [f64; 2]) -> Self {
+        let points: SmallVec<[DVec4; 8]> = points.into_iter().collect();
+        let bounds = Bounds::of(points.iter().map(|h| h.xyz() / h.w));
+        Self { points, t, bounds }
+    }
+
+    fn places(&self) -> impl Iterator<Item = DVec3> + Clone {
+        self.points.iter().map(|h| h.xyz() / h.w)
+    }
+
+    /// Point and derivative by t.
+    pub(super) fn evaluate(&self, t: f64) -> (DVec3, DVec3) {
+        let length = self.t[1] - self.t[0];
+        let s = (t - self.t[0]) / length;
+        let mut work = self.points.clone();
+        let degree = work.len() - 1;
+        for round in 1..degree {
+            for k in 0..=degree - round {
+                work[k] = (1.0 - s) * work[k] + s * work[k + 1];
+            }
+        }
+        let h = (1.0 - s) * work[0] + s * work[1];
+        let d = (degree as f64 / length) * (work[1] - work[0]);
+        let p = h.xyz() / h.w;
+        (p, (d.xyz() - d.w * p) / h.w)
+    }
+
+    fn halves(&self) -> [Self; 2] {
+        let degree = self.points.len() - 1;
+        let (mut low, mut high) = (self.points.clone(), self.points.clone());
+        for round in 1..=degree {
+            for k in 0..=degree - round {
+                high[k] = 0.5 * (high[k] + high[k + 1]);
+            }
+            low[round] = high[0];
+        }
+        let middle = 0.5 * (self.t[0] + self.t[1]);
+        [
+            Self::new(low, [self.t[0], middle]),
+            Self::new(high, [middle, self.t[1]]),
+        ]
+    }
+
+    fn tangents(&self) -> Option<(DVec3, f64)> {
+        cone(self.places().zip(self.places().skip(1)).map(|(a, b)| b - a))
+    }
+
+    fn range_along(&self, direction: DVec3) -> [f64; 2] {
+        self.places()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+                let d = p.dot(direction);
+                [low.min(d), high.max(d)]
+            })
+    }
+
+    pub(super) fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+}
+
+/// All places where the segments pass through a sheet, within a box, by parameter.
+pub(super) struct Piercing<'a> {
+    sheet: &'a Sheet,
+    tolerances: Tolerances,
+    clip: Bounds,
+    segments: &'a [Segment],
+    segment: usize,
+    pub(super) roots: Vec<Root>,
+    /// Places that halving did not decide: the curve grazes the sheet, or runs along it.
+    pub(super) undecided: usize,
+    halvings: usize,
+}
+
+impl<'a> Piercing<'a> {
+    pub(super) fn new(
+        segments: &'a [Segment],
+        sheet: &'a Sheet,
+        tolerances: Tolerances,
+        clip: Bounds,
+    ) -> Self {
+        Self {
+            sheet,
+            tolerances,
+            clip,
+            segments,
+            segment: 0,
+            roots: Vec::new(),
+            undecided: 0,
+            halvings: 0,
+        }
+    }
+
+    pub(super) fn run(mut self) -> Self {
+        let near = *self.sheet.bounds();
+        for k in 0..self.segments.len() {
+            let segment = &self.segments[k];
+            if segment.bounds.meets(&near) && segment.bounds.meets(&self.clip) {
+                self.segment = k;
+                self.nodes(self.sheet.root(), segment);
+            }
+        }
+        self.roots.sort_by(|a, b| a.t.total_cmp(&b.t));
+        self
+    }
+
+    fn nodes(&mut self, at: usize, segment: &Segment) {
+        let node = self.sheet.node(at);
+        if !node.bounds.meets(&segment.bounds) || !node.bounds.meets(&self.clip) {
+            return;
+        }
+        match node.kind {
+            NodeKind::Leaf(patch) => self.pieces(segment, self.sheet.patch(patch)),
+            NodeKind::Pair(a, b) => {
+                self.nodes(a, segment);
+                self.nodes(b, segment);
+            }
+        }
+    }
+
+    fn pieces(&mut self, segment: &Segment, patch: &Patch) {
+        self.halvings += 1;
+        if self.halvings > MOST {
+            self.undecided += 1;
+            return;
+        }
+        if !segment.bounds.meets(&patch.bounds) || !segment.bounds.meets(&self.clip) {
+            return;
+        }
+        let across = patch.thin_direction();
+        let (x, y) = (segment.range_along(across), patch.range_along(across));
+        if x[0] > y[1] || y[0] > x[1] {
+            return;
+        }
+        let tangents = segment.tangents();
+        let normals = patch.normals();
+        let bend = tangents.map_or(f64::INFINITY, |t| t.1);
+        let lean = normals.map_or(f64::INFINITY, |n| n.1);
+        if let (Some((along, bend)), Some((normal, lean))) = (tangents, normals)
+            && bend < STRAIGHT
+            && lean < STRAIGHT
+            // No tangent lies in any tangent plane: at most one root.
+            && along.dot(normal).abs() > bend + lean
+        {
+            self.land(segment, patch);
+            return;
+        }
+        let least = LEAST * self.tolerances.scale;
+        let (size_s, size_p) = (segment.bounds.extent(), patch.bounds.extent());
+        if size_s < least && size_p < least {
+            if !self.land(segment, patch) {
+                self.undecided += 1;
+            }
+            return;
+        }
+        // Whatever is longer, or bends more when both are small enough to compare.
+        let halve_segment = if size_s > 4.0 * size_p || size_p > 4.0 * size_s {
+            size_s > size_p
+        } else if bend < STRAIGHT && lean < STRAIGHT {
+            size_s > size_p
+        } else {
+            bend > lean
+        };
+        if halve_segment && size_s >= least || size_p < least {
+            for half in segment.halves() {
+                self.pieces(&half, patch);
+            }
+        } else {
+            for half in patch.halves(patch.longer()) {
+                self.pieces(segment, &half);
+            }
+        }
+    }
+
+    /// Newton's method from the middle of both. Whether it found a root, new or known.
+    fn land(&mut self, segment: &Segment, patch: &Patch) -> bool {
+        let whole = &self.segments[self.segment];
+        let [mut u, mut v] = patch.middle();
+        let mut t = 0.5 * (segment.t[0] + segment.t[1]);
+        let mut converged = false;
+        for _ in 0..20 {
+            let (c, dc) = whole.evaluate(t);
+            let (p, pu, pv) = self.sheet.first_jet(u, v);
+            let gap = c - p;
+            let matrix = [
+                [dc.x, -pu.x, -pv.x],
+                [dc.y, -pu.y, -pv.y],
+                [dc.z, -pu.z, -pv.z],
+            ];
+            let Some(step) = solve(matrix, [-gap.x, -gap.y, -gap.z]) else {
+                return false;
+            };
+            t += step[0];
+            u += step[1];
+            v += step[2];
+            let length = self.sheet.length(0).max(self.sheet.length(1));
+            if !(u.is_finite() && v.is_finite() && (u - patch.u[0]).abs() < 2.0 * length) {
+                return false;
+            }
+            let moved = (dc * step[0]).length();
+            if gap.abs().element_sum() < self.tolerances.residual && moved < self.tolerances.step {
+                converged = true;
+                break;
+            }
+        }
+        if !converged {
+            return false;
+        }
+        // A root beside the patch belongs to its neighbour, which finds it too.
+        let slack = |[low, high]: [f64; 2]| 1e-9 * (high - low);
+        let within = |value: f64, range: [f64; 2]| {
+            range[0] - slack(range) <= value && value <= range[1] + slack(range)
+        };
+        if !within(t, segment.t) || !within(u, patch.u) || !within(v, patch.v) {
+            return false;
+        }
+        let point = self.sheet.point(u, v);
+        if !self.clip.holds(point) {
+            return true;
+        }
+        let at = DVec2::new(u, v);
+        let root = Root { t, at, point };
+        let same = |other: &Root| other.point.distance(root.point) < self.tolerances.same;
+        if !self.roots.iter().any(same) {
+            self.roots.push(root);
+        }
+        true
+    }
+}

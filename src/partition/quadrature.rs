@@ -1,0 +1,224 @@
+//! Areas and volumes of trimmed faces, by Green's theorem: an integral over a face is one along its loops of
+//! an integral across it.
+//!
+//! Volumes follow from the divergence theorem, `V = ⅓ ∮ (S − o)·n dA`. A face is integrated once and serves
+//! both of its solids, so what two solids share cancels exactly in the sum of all volumes.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::arcs::Arc;
+use super::faces::{Face, HalfEdge};
+use super::patch::Along;
+use super::sheet::Sheet;
+use super::tracks::{Geometry, Source, Tracks};
+
+/// Integrals over a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Integral {
+    /// Area (m²).
+    pub area: f64,
+    /// Flux of a third of the position, relative to the middle of the domain, along `S_u × S_v` (m³).
+    pub flux: f64,
+}
+
+impl Integral {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            area: self.area + other.area,
+            flux: self.flux + other.flux,
+        }
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self {
+            area: self.area * factor,
+            flux: self.flux * factor,
+        }
+    }
+}
+
+/// Nodes and weights of Gauss–Legendre quadrature on [−1, 1], the half with positive nodes.
+const RULES: [&[(f64, f64)]; 4] = [
+    &[(0.577_350_269_189_625_8, 1.0)],
+    &[
+        (0.0, 0.888_888_888_888_888_9),
+        (0.774_596_669_241_483_4, 0.555_555_555_555_555_6),
+    ],
+    &[
+        (0.0, 0.568_888_888_888_888_9),
+        (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    ],
+    &[
+        (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
+        (0.433_395_394_129_247_2, 0.269_266_719_309_996_4),
+        (0.679_409_568_299_024_4, 0.219_086_362_515_982),
+        (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
+        (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
+    ],
+];
+
+/// For pieces of computed curves: so short that a curve of degree 5 follows them to the tolerance.
+const PIECE: &[(f64, f64)] = RULES[1];
+
+/// Which rule integrates polynomials of a sheet's flux exactly, and others well.
+fn rule(degree: usize, rational: bool) -> &'static [(f64, f64)] {
+    match (degree, rational) {
+        (_, true) => RULES[3],
+        (0 | 1, _) => RULES[0],
+        (2, _) => RULES[1],
+        (3, _) => RULES[2],
+        _ => RULES[3],
+    }
+}
+
+fn integrate(rule: &[(f64, f64)], from: f64, to: f64, mut at: impl FnMut(f64) -> Integral) -> Integral {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let mut sum = Integral::default();
+    let mut add = |x: f64, weight: f64| {
+        sum = sum.plus(at(middle + half * x).times(weight));
+    };
+    for &(x, weight) in rule {
+        add(x, weight);
+        if x != 0.0 {
+            add(-x, weight);
+        }
+    }
+    sum.times(half)
+}
+
+/// The integrals of all faces.
+pub(super) fn integrals(
+    geometry: Geometry<'_>,
+    tracks: &Tracks,
+    arcs: &[Arc],
+    faces: &[Face],
+) -> Vec<Integral> {
+    let middle = 0.5 * (geometry.regions.domain.low + geometry.regions.domain.high);
+    faces
+        .par_iter()
+        .map(|face| of_face(geometry, tracks, arcs, face, middle))
+        .collect()
+}
+
+fn of_face(
+    geometry: Geometry<'_>,
+    tracks: &Tracks,
+    arcs: &[Arc],
+    face: &Face,
+    middle: DVec3,
+) -> Integral {
+    let sheet = &geometry.regions.sheets[face.sheet];
+    let across = Across::new(sheet, &face.polygons[0], middle);
+    let mut sum = Integral::default();
+    for own in &face.loops {
+        sum = sum.plus(gaps(geometry, tracks, arcs, own, &across));
+    }
+    for half in face.loops.iter().flatten() {
+        let arc = &arcs[half.arc];
+        let source = tracks.tracks[arc.track].source;
+        let sign = if half.forward { 1.0 } else { -1.0 };
+        let outer_rule = match source {
+            Source::Crossing(_) => PIECE,
+            Source::Edge(_) | Source::Pole(_) => across.along,
+        };
+        let breaks = geometry.breaks(source);
+        let inner = breaks.into_iter().filter(|t| *t > arc.t[0] && *t < arc.t[1]);
+        let stops: Vec<f64> = std::iter::once(arc.t[0]).chain(inner).chain([arc.t[1]]).collect();
+        for pair in stops.windows(2) {
+            let own = integrate(outer_rule, pair[0], pair[1], |t| {
+                let (at, speed) = geometry.on_sheet(source, half.side, t);
+                across.at(at, speed)
+            });
+            sum = sum.plus(own.times(sign));
+        }
+    }
+    sum
+}
+
+/// What is between the end of each half-edge and the start of the next: curves are computed to a tolerance, and
+/// integrals of loops that do not close would depend on where integrals across start.
+fn gaps(
+    geometry: Geometry<'_>,
+    tracks: &Tracks,
+    arcs: &[Arc],
+    own: &[HalfEdge],
+    across: &Across<'_>,
+) -> Integral {
+    let ends = |half: &HalfEdge| {
+        let arc = &arcs[half.arc];
+        let source = tracks.tracks[arc.track].source;
+        let ends = arc.t.map(|t| geometry.on_sheet(source, half.side, t).0);
+        if half.forward { ends } else { [ends[1], ends[0]] }
+    };
+    let mut sum = Integral::default();
+    let mut last = ends(&own[own.len() - 1])[1];
+    for half in own {
+        let [first, end] = ends(half);
+        sum = sum.plus(across.at(0.5 * (last + first), first - last));
+        last = end;
+    }
+    sum
+}
+
+/// Integrals across a sheet, in the direction with fewer spans, from a fixed parameter.
+struct Across<'a> {
+    sheet: &'a Sheet,
+    /// The direction: 0 along u, 1 along v.
+    axis: usize,
+    from: f64,
+    middle: DVec3,
+    rule: &'static [(f64, f64)],
+    along: &'static [(f64, f64)],
+}
+
+impl<'a> Across<'a> {
+    fn new(sheet: &'a Sheet, polygon: &[DVec2], middle: DVec3) -> Self {
+        let axis = usize::from(sheet.knots[1].len() < sheet.knots[0].len());
+        let degrees = [
+            sheet.surface.knots_u().degree(),
+            sheet.surface.knots_v().degree(),
+        ];
+        let rational = sheet.surface.is_rational();
+        let sum: f64 = polygon.iter().map(|p| p[axis]).sum();
+        Self {
+            sheet,
+            axis,
+            from: sum / polygon.len() as f64,
+            middle,
+            rule: rule(degrees[axis], rational),
+            along: rule(degrees[1 - axis], rational),
+        }
+    }
+
+    /// The integral across, up to a place, times the speed at which a loop passes along.
+    fn at(&self, place: DVec2, speed: DVec2) -> Integral {
+        // ∬ f du dv = ∮ (∫ f du) dv = −∮ (∫ f dv) du
+        let factor = if self.axis == 0 { speed.y } else { -speed.x };
+        if factor == 0.0 {
+            return Integral::default();
+        }
+        let (from, to) = (self.from, place[self.axis]);
+        let (low, high) = (from.min(to), from.max(to));
+        let knots = &self.sheet.knots[self.axis];
+        let inner = knots.iter().copied().filter(|k| *k > low && *k < high);
+        let fixed = if self.axis == 0 { Along::V } else { Along::U };
+        let mut sum = Integral::default();
+        let mut start = low;
+        for end in inner.chain([high]) {
+            let slice = self.sheet.slice(fixed, place[1 - self.axis], 0.5 * (start + end));
+            let own = integrate(self.rule, start, end, |x| {
+                let (p, along, other) = slice.jet(x);
+                let normal = if self.axis == 0 { along.cross(other) } else { other.cross(along) };
+                Integral {
+                    area: normal.length(),
+                    flux: (p - self.middle).dot(normal) / 3.0,
+                }
+            });
+            sum = sum.plus(own);
+            start = end;
+        }
+        sum.times(if to < from { -factor } else { factor })
+    }
+}

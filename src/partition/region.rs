@@ -1,0 +1,314 @@
+//! Regions: what the sheets bound, how the sheets of a region join, and whether a region holds a point.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::PartitionError;
+use super::bounds::Bounds;
+use super::pierce::Segment;
+use super::sheet::{BORDERS, Border, Sheet};
+use crate::nurbs::enclosure::Enclosure;
+use crate::nurbs::{Curve, KnotVector, Surface};
+
+/// What sheets are the boundary of.
+#[derive(Clone, Debug)]
+pub enum Region {
+    /// The inside of a closed shell. Its surfaces join along whole sides.
+    Shell(Vec<Surface>),
+    /// A box along the axes.
+    Block {
+        /// Lower corner (m).
+        low: DVec3,
+        /// Upper corner (m).
+        high: DVec3,
+    },
+    /// Everything above an elevation (m).
+    Above(f64),
+}
+
+/// A region's membership.
+#[derive(Debug)]
+pub(super) enum Inside {
+    Shell(Box<Enclosure>),
+    Block(DVec3, DVec3),
+    Above(f64),
+}
+
+impl Inside {
+    pub(super) fn holds(&self, p: DVec3) -> bool {
+        match self {
+            Self::Shell(shell) => shell.contains(p),
+            Self::Block(low, high) => p.cmpge(*low).all() && p.cmple(*high).all(),
+            Self::Above(level) => p.z > *level,
+        }
+    }
+}
+
+/// Where sheets of a region join, along a whole side of each.
+#[derive(Clone, Debug)]
+pub(super) struct Edge {
+    /// The curve, with the parameter of its first sheet's side.
+    pub(super) curve: Curve,
+    pub(super) segments: Vec<Segment>,
+    pub(super) sides: [Side; 2],
+    pub(super) region: usize,
+    pub(super) bounds: Bounds,
+}
+
+/// An edge as the side of a sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Side {
+    pub(super) sheet: usize,
+    pub(super) border: Border,
+    /// The side's running parameter is `shift + scale t`.
+    pub(super) shift: f64,
+    pub(super) scale: f64,
+}
+
+impl Side {
+    /// Parameters on the sheet, and their derivative, at t.
+    pub(super) fn at(&self, sheets: &[Sheet], t: f64) -> (DVec2, DVec2) {
+        let fixed = sheets[self.sheet].at_border(self.border);
+        let running = self.shift + self.scale * t;
+        if self.border.axis() == 0 {
+            (DVec2::new(fixed, running), DVec2::new(0.0, self.scale))
+        } else {
+            (DVec2::new(running, fixed), DVec2::new(self.scale, 0.0))
+        }
+    }
+
+    /// Whether the sheet lies to the left in the direction of growing t.
+    pub(super) fn sheet_is_left(&self) -> bool {
+        self.border.sheet_is_left() == (self.scale > 0.0)
+    }
+}
+
+/// A side that has shrunk to a point: the pole of an ellipsoid, the corner of an end face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pole {
+    pub(super) sheet: usize,
+    pub(super) border: Border,
+    pub(super) point: DVec3,
+}
+
+/// All sheets with the regions that they bound.
+#[derive(Debug)]
+pub(super) struct Regions {
+    pub(super) sheets: Vec<Sheet>,
+    pub(super) edges: Vec<Edge>,
+    pub(super) poles: Vec<Pole>,
+    pub(super) inside: Vec<Inside>,
+    pub(super) bounds: Vec<Bounds>,
+    pub(super) domain: Bounds,
+}
+
+/// How far apart sides may be that are the same, as a fraction of the region's size.
+const CLOSURE: f64 = 1e-9;
+
+struct Made {
+    sheets: Vec<Surface>,
+    inside: Inside,
+}
+
+impl Regions {
+    /// Region 0 is the domain.
+    pub(super) fn new(regions: Vec<Region>) -> Result<Self, PartitionError> {
+        let Some(Region::Block { low, high }) = regions.first() else {
+            return Err(PartitionError::NoDomain);
+        };
+        let domain = Bounds { low: *low, high: *high };
+        let made = regions
+            .into_par_iter()
+            .enumerate()
+            .map(|(index, region)| make(index, region, &domain))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut all = Self {
+            sheets: Vec::new(),
+            edges: Vec::new(),
+            poles: Vec::new(),
+            inside: Vec::new(),
+            bounds: Vec::new(),
+            domain,
+        };
+        let mut open = Vec::new();
+        for (index, region) in made.into_iter().enumerate() {
+            let first = all.sheets.len();
+            let mut bounds = Bounds::EMPTY;
+            let is_open = matches!(region.inside, Inside::Above(_));
+            for surface in region.sheets {
+                let degrees = [surface.knots_u().degree(), surface.knots_v().degree()];
+                let sheet = Sheet::new(surface, index)
+                    .ok_or(PartitionError::Degree { region: index, degrees })?;
+                bounds = bounds.and(*sheet.bounds());
+                all.sheets.push(sheet);
+            }
+            all.inside.push(region.inside);
+            all.bounds.push(bounds);
+            if !is_open {
+                open.push((index, first..all.sheets.len()));
+            }
+        }
+        for (index, own) in open {
+            all.join(index, own)?;
+        }
+        all.orient()?;
+        Ok(all)
+    }
+
+    /// Pairs the sides of a region's sheets.
+    fn join(&mut self, region: usize, own: std::ops::Range<usize>) -> Result<(), PartitionError> {
+        let tolerance = CLOSURE * self.bounds[region].diagonal();
+        let mut open: Vec<(usize, Border, Curve)> = Vec::new();
+        for sheet in own {
+            for border in BORDERS {
+                let surface = &self.sheets[sheet].surface;
+                let at = self.sheets[sheet].at_border(border);
+                let curve = if border.axis() == 0 {
+                    surface.isocurve_u(at)
+                } else {
+                    surface.isocurve_v(at)
+                };
+                let bounds = Bounds::of(curve.points().iter().copied());
+                if bounds.diagonal() <= tolerance {
+                    let point = curve.points()[0];
+                    self.poles.push(Pole { sheet, border, point });
+                    continue;
+                }
+                let partner = open
+                    .iter()
+                    .position(|(_, _, other)| alike(other, &curve, tolerance).is_some());
+                match partner {
+                    None => open.push((sheet, border, curve)),
+                    Some(at) => {
+                        let (first, first_border, first_curve) = open.remove(at);
+                        let Some((shift, scale)) = alike(&first_curve, &curve, tolerance) else {
+                            continue;
+                        };
+                        let sides = [
+                            Side { sheet: first, border: first_border, shift: 0.0, scale: 1.0 },
+                            Side { sheet, border, shift, scale },
+                        ];
+                        self.edges.push(Edge {
+                            segments: segments(&first_curve),
+                            bounds,
+                            curve: first_curve,
+                            sides,
+                            region,
+                        });
+                    }
+                }
+            }
+        }
+        match open.first() {
+            None => Ok(()),
+            Some((_, _, curve)) => Err(PartitionError::Open {
+                region,
+                from: curve.points()[0],
+                to: curve.points()[curve.points().len() - 1],
+            }),
+        }
+    }
+
+    /// Finds out on which side of each sheet its region lies.
+    fn orient(&mut self) -> Result<(), PartitionError> {
+        let signs: Vec<Option<f64>> = self
+            .sheets
+            .par_iter()
+            .map(|sheet| outward(sheet, &self.inside[sheet.region], &self.bounds[sheet.region]))
+            .collect();
+        for (at, sign) in signs.into_iter().enumerate() {
+            let region = self.sheets[at].region;
+            self.sheets[at].outward = sign.ok_or(PartitionError::NoSides { region, sheet: at })?;
+        }
+        Ok(())
+    }
+}
+
+fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, PartitionError> {
+    match region {
+        Region::Shell(sheets) => {
+            let shell = Enclosure::new(sheets.clone())
+                .map_err(|source| PartitionError::Shell { region: index, source })?;
+            Ok(Made { sheets, inside: Inside::Shell(Box::new(shell)) })
+        }
+        Region::Block { low, high } => {
+            let corner = |i: usize| {
+                let pick = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };
+                DVec3::new(pick(0), pick(1), pick(2))
+            };
+            let sheets = [[0, 2, 4, 6], [1, 3, 5, 7], [0, 1, 4, 5], [2, 3, 6, 7], [0, 1, 2, 3], [4, 5, 6, 7]]
+                .iter()
+                .map(|corners| rectangle(corners.map(corner)))
+                .collect::<Result<_, _>>()
+                .map_err(|()| PartitionError::NoDomain)?;
+            Ok(Made { sheets, inside: Inside::Block(low, high) })
+        }
+        Region::Above(level) => {
+            let (low, high) = (domain.low, domain.high);
+            let margin = 0.1 * (high - low).max_element();
+            let at = |x: f64, y: f64| DVec3::new(x, y, level);
+            let (x, y) = ([low.x - margin, high.x + margin], [low.y - margin, high.y + margin]);
+            let corners = [at(x[0], y[0]), at(x[1], y[0]), at(x[0], y[1]), at(x[1], y[1])];
+            let sheet = rectangle(corners).map_err(|()| PartitionError::NoDomain)?;
+            Ok(Made { sheets: vec![sheet], inside: Inside::Above(level) })
+        }
+    }
+}
+
+/// A flat sheet from its corners at (0, 0), (1, 0), (0, 1), (1, 1), with lengths as parameters.
+fn rectangle([a, b, c, d]: [DVec3; 4]) -> Result<Surface, ()> {
+    let knots = |length: f64| KnotVector::new(1, vec![0.0, 0.0, length, length]).map_err(|_| ());
+    let (u, v) = (knots(a.distance(b))?, knots(a.distance(c))?);
+    Surface::new(u, v, vec![a, c, b, d]).map_err(|_| ())
+}
+
+pub(super) fn segments(curve: &Curve) -> Vec<Segment> {
+    let segment = |piece: &Curve| {
+        let (start, end) = piece.domain();
+        let points = piece.points().iter().zip(piece.weights()).map(|(p, w)| (*p * *w).extend(*w));
+        Segment::new(points, [start, end])
+    };
+    curve.bezier_segments().iter().map(segment).collect()
+}
+
+/// How the parameter of `b` follows from that of `a`, if they run along each other: shift and scale.
+fn alike(a: &Curve, b: &Curve, tolerance: f64) -> Option<(f64, f64)> {
+    let ((a0, a1), (b0, b1)) = (a.domain(), b.domain());
+    let forward = (b1 - b0) / (a1 - a0);
+    let ways = [(b0 - forward * a0, forward), (b1 + forward * a0, -forward)];
+    ways.into_iter().find(|(shift, scale)| {
+        // Ends first: they tell most curves apart.
+        let same = |t: f64| a.point(t).distance(b.point(shift + scale * t)) <= tolerance;
+        if !(same(a0) && same(a1)) {
+            return false;
+        }
+        let knots = a.knots().distinct();
+        let samples = 2 * (a.degree() + b.degree()) + 1;
+        knots.windows(2).all(|pair| {
+            let (from, to) = (pair[0].0, pair[1].0);
+            (1..=samples).all(|k| same(from + (to - from) * k as f64 / (samples + 1) as f64))
+        })
+    })
+}
+
+/// 1 if the sheet's normal points out of its region, −1 if into it, by points beside it.
+fn outward(sheet: &Sheet, inside: &Inside, bounds: &Bounds) -> Option<f64> {
+    // Away from symmetric places, where other sheets are likelier to be near.
+    const FRACTIONS: [f64; 4] = [0.517, 0.273, 0.811, 0.094];
+    let reach = 1e-6 * bounds.diagonal();
+    for fu in FRACTIONS {
+        for fv in FRACTIONS {
+            let u = sheet.low(0) + fu * sheet.length(0);
+            let v = sheet.low(1) + fv * sheet.length(1);
+            let (p, pu, pv) = sheet.first_jet(u, v);
+            let Some(normal) = pu.cross(pv).try_normalize() else {
+                continue;
+            };
+            let (ahead, behind) = (inside.holds(p + reach * normal), inside.holds(p - reach * normal));
+            if ahead != behind {
+                return Some(if behind { 1.0 } else { -1.0 });
+            }
+        }
+    }
+    None
+}

@@ -1,0 +1,211 @@
+//! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
+//!
+//! A pair of patches whose cones of normals have no direction in common crosses in at most one simple arc
+//! (two arcs, or a loop, would need parallel normals somewhere), so one attempt to land on it is enough.
+
+use super::bounds::Bounds;
+use super::hermite::{Branch, Node};
+use super::pair::{Closing, Pair};
+use super::patch::Patch;
+use super::sheet::NodeKind;
+
+/// Patches are halved down to this fraction of the domain's size.
+const LEAST: f64 = 1e-5;
+/// Most halvings of one pair of sheets: beyond, they run along each other.
+const MOST: usize = 400_000;
+/// Normals that lean less than this sine are flat enough for one attempt.
+const FLAT: f64 = 0.35;
+/// Sizes of two patches that are compared may differ by this factor.
+const RATIO: f64 = 4.0;
+
+struct Piece {
+    patch: Patch,
+    normals: Option<(glam::DVec3, f64)>,
+}
+
+impl Piece {
+    fn new(patch: Patch) -> Self {
+        let normals = patch.normals();
+        Self { patch, normals }
+    }
+
+    fn lean(&self) -> f64 {
+        self.normals.map_or(f64::INFINITY, |normals| normals.1)
+    }
+}
+
+/// Looks for places where two sheets cross, and hands each to `found`, which returns the branch through it.
+pub(super) struct Search<'a, F> {
+    pub(super) pair: Pair<'a>,
+    pub(super) clip: Bounds,
+    pub(super) branches: Vec<Branch>,
+    pub(super) found: F,
+    /// Places where the sheets come too near each other to decide.
+    pub(super) undecided: usize,
+    halvings: usize,
+}
+
+impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
+    pub(super) fn new(pair: Pair<'a>, clip: Bounds, branches: Vec<Branch>, found: F) -> Self {
+        Self {
+            pair,
+            clip,
+            branches,
+            found,
+            undecided: 0,
+            halvings: 0,
+        }
+    }
+
+    pub(super) fn run(&mut self) {
+        let [a, b] = self.pair.sheets;
+        self.nodes(a.root(), b.root());
+    }
+
+    fn nodes(&mut self, i: usize, j: usize) {
+        let [a, b] = self.pair.sheets;
+        let (x, y) = (a.node(i), b.node(j));
+        if !x.bounds.meets(&y.bounds) || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds) {
+            return;
+        }
+        match (x.kind, y.kind) {
+            (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
+                let (p, q) = (a.patch(p), b.patch(q));
+                if !apart(p, q) {
+                    self.patches(&Piece::new(p.clone()), &Piece::new(q.clone()));
+                }
+            }
+            (NodeKind::Pair(first, second), NodeKind::Leaf(_)) => {
+                self.nodes(first, j);
+                self.nodes(second, j);
+            }
+            (NodeKind::Leaf(_), NodeKind::Pair(first, second)) => {
+                self.nodes(i, first);
+                self.nodes(i, second);
+            }
+            (NodeKind::Pair(p, q), NodeKind::Pair(r, s)) => {
+                if x.bounds.extent() >= y.bounds.extent() {
+                    self.nodes(p, j);
+                    self.nodes(q, j);
+                } else {
+                    self.nodes(i, r);
+                    self.nodes(i, s);
+                }
+            }
+        }
+    }
+
+    fn patches(&mut self, a: &Piece, b: &Piece) {
+        self.halvings += 1;
+        if self.halvings > MOST {
+            return;
+        }
+        let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
+        if let (Some((axis_a, lean_a)), Some((axis_b, lean_b))) = (a.normals, b.normals) {
+            let flat = lean_a < FLAT && lean_b < FLAT;
+            let alike = size_a < RATIO * size_b && size_b < RATIO * size_a;
+            if flat && alike && axis_a.cross(axis_b).length() > lean_a + lean_b {
+                self.land(a, b);
+                return;
+            }
+        }
+        let least = LEAST * self.pair.tolerances.scale;
+        if size_a < least && size_b < least {
+            if !self.land(a, b) {
+                self.undecided += 1;
+            }
+            return;
+        }
+        let first = if size_a > RATIO * size_b || size_b > RATIO * size_a || size_b < least || size_a < least {
+            size_a > size_b
+        } else if a.lean() < FLAT && b.lean() < FLAT {
+            size_a > size_b
+        } else {
+            a.lean() > b.lean()
+        };
+        let halved = if first { a } else { b };
+        for half in halved.patch.halves(halved.patch.longer()) {
+            let other = if first { &b.patch } else { &a.patch };
+            if !half.bounds.meets(&other.bounds) || !self.clip.meets(&half.bounds) {
+                continue;
+            }
+            if apart(&half, other) {
+                continue;
+            }
+            let half = Piece::new(half);
+            if first {
+                self.patches(&half, b);
+            } else {
+                self.patches(a, &half);
+            }
+        }
+    }
+
+    /// Tries to land on the curve between two patches. Whether there is one, known or new.
+    fn land(&mut self, a: &Piece, b: &Piece) -> bool {
+        let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
+        let within = |q: &[f64; 4]| {
+            (0..4).all(|i| {
+                let [low, high] = rectangles[i];
+                let slack = 0.02 * (high - low);
+                low - slack <= q[i] && q[i] <= high + slack
+            })
+        };
+        let known = |branch: &Branch| branch.nodes.iter().any(|node| within(&node.parameters()));
+        if self.branches.iter().any(known) {
+            return true;
+        }
+        let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
+        let mut q = [u, v, s, t];
+        let (pa, au, av) = a.patch.first_jet(u, v);
+        let (pb, bu, bv) = b.patch.first_jet(s, t);
+        let (na, nb) = (au.cross(av), bu.cross(bv));
+        let Some(tangent) = na.cross(nb).try_normalize() else {
+            return false;
+        };
+        let closing = Closing::Plane(tangent, 0.5 * (pa + pb));
+        if !self.pair.newton(&mut q, closing, 10) || !within(&q) {
+            return false;
+        }
+        let [a, b] = self.pair.sheets;
+        if !a.holds(q[0], q[1]) || !b.holds(q[2], q[3]) {
+            return false;
+        }
+        let Some(node) = self.pair.node(q, None) else {
+            return false;
+        };
+        if !self.clip.holds(node.point()) {
+            return true;
+        }
+        if self.is_traced(&node) {
+            return true;
+        }
+        if let Some(branch) = (self.found)(node) {
+            self.branches.push(branch);
+        }
+        true
+    }
+
+    /// Whether a known branch passes through a point.
+    fn is_traced(&self, node: &Node) -> bool {
+        let near = (6.0 * self.pair.tolerances.curve / node.sine.max(1e-4))
+            .max(1e2 * self.pair.tolerances.curve);
+        self.branches
+            .iter()
+            .any(|branch| branch.project(node.point()).1 < near)
+    }
+
+    /// Whether the search was given up.
+    pub(super) fn gave_up(&self) -> bool {
+        self.halvings > MOST
+    }
+}
+
+/// Whether a plane along either patch separates both.
+fn apart(a: &Patch, b: &Patch) -> bool {
+    [a, b].iter().any(|of| {
+        let direction = of.thin_direction();
+        let (x, y) = (a.range_along(direction), b.range_along(direction));
+        x[0] > y[1] || y[0] > x[1]
+    })
+}

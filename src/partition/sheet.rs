@@ -1,0 +1,206 @@
+//! Sheets: surfaces as grids of Bézier patches with a box tree.
+
+use glam::DVec3;
+
+use super::bounds::Bounds;
+use super::patch::{Along, Jet, ORDER, Patch, Slice};
+use crate::nurbs::Surface;
+
+/// A surface that bounds a region.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    pub(super) surface: Surface,
+    /// The region that it bounds.
+    pub(super) region: usize,
+    /// 1 if `S_u × S_v` points out of the region, −1 if it points in.
+    pub(super) outward: f64,
+    /// Distinct knots.
+    pub(super) knots: [Vec<f64>; 2],
+    /// u-major.
+    patches: Vec<Patch>,
+    tree: Vec<Node>,
+}
+
+/// A node of a box tree: two children, or a patch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) bounds: Bounds,
+    pub(super) kind: NodeKind,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum NodeKind {
+    Leaf(usize),
+    Pair(usize, usize),
+}
+
+/// One of the four borders of a sheet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Border {
+    ULow,
+    UHigh,
+    VLow,
+    VHigh,
+}
+
+pub(super) const BORDERS: [Border; 4] = [Border::ULow, Border::UHigh, Border::VLow, Border::VHigh];
+
+impl Border {
+    /// 0 if u is constant along it, 1 if v is.
+    pub(super) fn axis(self) -> usize {
+        match self {
+            Self::ULow | Self::UHigh => 0,
+            Self::VLow | Self::VHigh => 1,
+        }
+    }
+
+    pub(super) fn is_high(self) -> bool {
+        matches!(self, Self::UHigh | Self::VHigh)
+    }
+
+    pub(super) fn of(axis: usize, high: bool) -> Self {
+        BORDERS[2 * axis + usize::from(high)]
+    }
+
+    /// Whether the sheet lies to the left of the border in the direction of the growing parameter.
+    pub(super) fn sheet_is_left(self) -> bool {
+        matches!(self, Self::UHigh | Self::VLow)
+    }
+}
+
+impl Sheet {
+    /// A sheet of a surface; `None` if its degree is too high for this kernel.
+    pub(super) fn new(surface: Surface, region: usize) -> Option<Self> {
+        let order = |knots: &crate::nurbs::KnotVector| knots.degree() + 1;
+        if order(surface.knots_u()) > ORDER || order(surface.knots_v()) > ORDER {
+            return None;
+        }
+        let distinct = |knots: &crate::nurbs::KnotVector| -> Vec<f64> {
+            knots.distinct().iter().map(|k| k.0).collect()
+        };
+        let knots = [distinct(surface.knots_u()), distinct(surface.knots_v())];
+        let rows = order(surface.knots_u());
+        let patch = |piece: &Surface| {
+            let (u, v) = (piece.knots_u().domain(), piece.knots_v().domain());
+            Patch::new(rows, piece.net(), piece.weights(), [u.0, u.1], [v.0, v.1])
+        };
+        let mut patches: Vec<Patch> = surface.bezier_patches().iter().map(patch).collect();
+        // The nurbs module lists patches by u, then v; say so where it matters.
+        patches.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]).then(a.v[0].total_cmp(&b.v[0])));
+        let mut sheet = Self {
+            surface,
+            region,
+            outward: 1.0,
+            knots,
+            patches,
+            tree: Vec::new(),
+        };
+        let spans = [sheet.knots[0].len() - 1, sheet.knots[1].len() - 1];
+        sheet.branch([0, spans[0]], [0, spans[1]]);
+        Some(sheet)
+    }
+
+    fn branch(&mut self, u: [usize; 2], v: [usize; 2]) -> usize {
+        let (long_u, long_v) = (u[1] - u[0], v[1] - v[0]);
+        if long_u == 1 && long_v == 1 {
+            let patch = u[0] * (self.knots[1].len() - 1) + v[0];
+            self.tree.push(Node {
+                bounds: self.patches[patch].bounds,
+                kind: NodeKind::Leaf(patch),
+            });
+            return self.tree.len() - 1;
+        }
+        let (first, second) = if long_u >= long_v {
+            let middle = u[0].midpoint(u[1]);
+            (
+                self.branch([u[0], middle], v),
+                self.branch([middle, u[1]], v),
+            )
+        } else {
+            let middle = v[0].midpoint(v[1]);
+            (
+                self.branch(u, [v[0], middle]),
+                self.branch(u, [middle, v[1]]),
+            )
+        };
+        self.tree.push(Node {
+            bounds: self.tree[first].bounds.and(self.tree[second].bounds),
+            kind: NodeKind::Pair(first, second),
+        });
+        self.tree.len() - 1
+    }
+
+    pub(super) fn root(&self) -> usize {
+        self.tree.len() - 1
+    }
+
+    pub(super) fn node(&self, at: usize) -> &Node {
+        &self.tree[at]
+    }
+
+    pub(super) fn patch(&self, at: usize) -> &Patch {
+        &self.patches[at]
+    }
+
+    pub(super) fn bounds(&self) -> &Bounds {
+        &self.tree[self.root()].bounds
+    }
+
+    pub(super) fn low(&self, axis: usize) -> f64 {
+        self.knots[axis][0]
+    }
+
+    pub(super) fn high(&self, axis: usize) -> f64 {
+        self.knots[axis][self.knots[axis].len() - 1]
+    }
+
+    pub(super) fn length(&self, axis: usize) -> f64 {
+        self.high(axis) - self.low(axis)
+    }
+
+    /// The constant parameter of a border.
+    pub(super) fn at_border(&self, border: Border) -> f64 {
+        if border.is_high() {
+            self.high(border.axis())
+        } else {
+            self.low(border.axis())
+        }
+    }
+
+    fn span(&self, axis: usize, value: f64) -> usize {
+        let inner = &self.knots[axis][1..self.knots[axis].len() - 1];
+        inner.partition_point(|knot| *knot <= value)
+    }
+
+    fn patch_at(&self, u: f64, v: f64) -> &Patch {
+        &self.patches[self.span(0, u) * (self.knots[1].len() - 1) + self.span(1, v)]
+    }
+
+    /// The curve at a fixed parameter, over the span of the other one that holds `other`.
+    pub(super) fn slice(&self, fixed: Along, value: f64, other: f64) -> Slice {
+        let (u, v) = match fixed {
+            Along::U => (value, other),
+            Along::V => (other, value),
+        };
+        self.patch_at(u, v).slice(fixed, value)
+    }
+
+    /// Point and derivatives; beyond the borders the polynomial at the border goes on.
+    pub(super) fn jet(&self, u: f64, v: f64) -> Jet {
+        self.patch_at(u, v).jet(u, v)
+    }
+
+    /// Point and first derivatives.
+    pub(super) fn first_jet(&self, u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
+        self.patch_at(u, v).first_jet(u, v)
+    }
+
+    pub(super) fn point(&self, u: f64, v: f64) -> DVec3 {
+        self.first_jet(u, v).0
+    }
+
+    /// Whether parameters lie on the sheet.
+    pub(super) fn holds(&self, u: f64, v: f64) -> bool {
+        self.low(0) <= u && u <= self.high(0) && self.low(1) <= v && v <= self.high(1)
+    }
+}

@@ -1,0 +1,324 @@
+//! Tracks: all curves that faces may end at, cut at vertices. A vertex is made once and shared by every
+//! track that passes through it.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+
+use super::check::Faults;
+use super::crossings::Crossings;
+use super::hermite::{self, End};
+use super::pair::Tolerances;
+use super::region::Regions;
+
+/// What a track is made from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    Edge(usize),
+    Crossing(usize),
+    Pole(usize),
+}
+
+/// A cut of a track.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    pub(super) t: f64,
+    pub(super) vertex: usize,
+    /// The region that the track enters or leaves there.
+    pub(super) region: Option<usize>,
+}
+
+/// A curve and its cuts, in order.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    pub(super) source: Source,
+    pub(super) sheets: [usize; 2],
+    pub(super) cuts: Vec<Cut>,
+}
+
+/// All tracks and their vertices.
+#[derive(Debug)]
+pub(super) struct Tracks {
+    pub(super) points: Vec<DVec3>,
+    pub(super) tracks: Vec<Track>,
+}
+
+/// The geometry of tracks.
+#[derive(Clone, Copy)]
+pub(super) struct Geometry<'a> {
+    pub(super) regions: &'a Regions,
+    pub(super) crossings: &'a Crossings,
+}
+
+impl Geometry<'_> {
+    /// The point at t.
+    pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
+        match source {
+            Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).0,
+            Source::Crossing(at) => {
+                hermite::space(&self.crossings.crossings[at].branch.value(t))
+            }
+            Source::Pole(at) => self.regions.poles[at].point,
+        }
+    }
+
+    /// The derivative at t.
+    pub(super) fn tangent(&self, source: Source, t: f64) -> DVec3 {
+        match source {
+            Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).1,
+            Source::Crossing(at) => {
+                hermite::space(&self.crossings.crossings[at].branch.derivative(t))
+            }
+            Source::Pole(_) => DVec3::ZERO,
+        }
+    }
+
+    fn edge_segment(&self, edge: usize, t: f64) -> &super::pierce::Segment {
+        let segments = &self.regions.edges[edge].segments;
+        let inner = &segments[..segments.len() - 1];
+        &segments[inner.partition_point(|segment| segment.t[1] <= t)]
+    }
+
+    /// Parameters on one of the track's sheets, and their derivative.
+    pub(super) fn on_sheet(&self, source: Source, side: usize, t: f64) -> (DVec2, DVec2) {
+        let sheets = &self.regions.sheets;
+        match source {
+            Source::Edge(edge) => self.regions.edges[edge].sides[side].at(sheets, t),
+            Source::Crossing(at) => {
+                let branch = &self.crossings.crossings[at].branch;
+                (
+                    hermite::on_sheet(&branch.value(t), side),
+                    hermite::on_sheet(&branch.derivative(t), side),
+                )
+            }
+            Source::Pole(at) => {
+                let pole = &self.regions.poles[at];
+                let sheet = &sheets[pole.sheet];
+                let fixed = sheet.at_border(pole.border);
+                if pole.border.axis() == 0 {
+                    (DVec2::new(fixed, t), DVec2::Y)
+                } else {
+                    (DVec2::new(t, fixed), DVec2::X)
+                }
+            }
+        }
+    }
+
+    /// Parameters strictly between which a track is one smooth piece.
+    pub(super) fn breaks(&self, source: Source) -> Vec<f64> {
+        match source {
+            Source::Edge(edge) => self.regions.edges[edge]
+                .segments
+                .iter()
+                .skip(1)
+                .map(|segment| segment.t[0])
+                .collect(),
+            Source::Crossing(at) => {
+                let lengths = &self.crossings.crossings[at].branch.lengths;
+                lengths[1..lengths.len() - 1].to_vec()
+            }
+            Source::Pole(_) => Vec::new(),
+        }
+    }
+}
+
+impl Tracks {
+    pub(super) fn new(
+        regions: &Regions,
+        crossings: &Crossings,
+        tolerances: Tolerances,
+        faults: &mut Faults,
+    ) -> Self {
+        let mut all = Self {
+            points: Vec::new(),
+            tracks: Vec::new(),
+        };
+        all.add_edges(regions, tolerances);
+        let roots: Vec<usize> = crossings
+            .roots
+            .iter()
+            .map(|root| {
+                let vertex = all.vertex(root.root.point);
+                all.tracks[root.edge].cuts.push(Cut {
+                    t: root.root.t,
+                    vertex,
+                    region: Some(regions.sheets[root.sheet].region),
+                });
+                vertex
+            })
+            .collect();
+        all.add_poles(regions, tolerances);
+        let first = all.tracks.len();
+        all.add_crossings(crossings, &roots);
+        all.add_triples(regions, crossings, first, tolerances, faults);
+        for track in &mut all.tracks {
+            track.cuts.sort_by(|a, b| a.t.total_cmp(&b.t));
+        }
+        all
+    }
+
+    fn vertex(&mut self, point: DVec3) -> usize {
+        self.points.push(point);
+        self.points.len() - 1
+    }
+
+    /// Edges, whose ends are shared within a region.
+    fn add_edges(&mut self, regions: &Regions, tolerances: Tolerances) {
+        let mut corners: Vec<(usize, DVec3, usize)> = Vec::new();
+        for (index, edge) in regions.edges.iter().enumerate() {
+            let (start, end) = edge.curve.domain();
+            let mut cuts = Vec::new();
+            for t in [start, end] {
+                let vertex = self.corner(&mut corners, edge.region, edge.curve.point(t), tolerances);
+                cuts.push(Cut { t, vertex, region: None });
+            }
+            self.tracks.push(Track {
+                source: Source::Edge(index),
+                sheets: [edge.sides[0].sheet, edge.sides[1].sheet],
+                cuts,
+            });
+        }
+    }
+
+    fn corner(
+        &mut self,
+        corners: &mut Vec<(usize, DVec3, usize)>,
+        region: usize,
+        point: DVec3,
+        tolerances: Tolerances,
+    ) -> usize {
+        // A region's corners are few, and the last ones are its own.
+        let known = corners
+            .iter()
+            .rev()
+            .take_while(|corner| corner.0 == region)
+            .find(|corner| corner.1.distance(point) <= 10.0 * tolerances.same);
+        if let Some(corner) = known {
+            return corner.2;
+        }
+        let vertex = self.vertex(point);
+        corners.push((region, point, vertex));
+        vertex
+    }
+
+    /// Poles, whose vertices are ends of their region's edges.
+    fn add_poles(&mut self, regions: &Regions, tolerances: Tolerances) {
+        for (index, pole) in regions.poles.iter().enumerate() {
+            let sheet = &regions.sheets[pole.sheet];
+            let near = 10.0 * tolerances.same;
+            let ends = self.tracks.iter().zip(&regions.edges).filter_map(|(track, edge)| {
+                if edge.region != sheet.region {
+                    return None;
+                }
+                let (start, end) = edge.curve.domain();
+                let cut = track.cuts.iter().find(|cut| {
+                    (cut.t == start || cut.t == end)
+                        && self.points[cut.vertex].distance(pole.point) <= near
+                });
+                cut.map(|cut| cut.vertex)
+            });
+            let Some(vertex) = ends.into_iter().next() else {
+                continue;
+            };
+            let running = 1 - pole.border.axis();
+            let cut = |t: f64| Cut { t, vertex, region: None };
+            self.tracks.push(Track {
+                source: Source::Pole(index),
+                sheets: [pole.sheet; 2],
+                cuts: vec![cut(sheet.low(running)), cut(sheet.high(running))],
+            });
+        }
+    }
+
+    fn add_crossings(&mut self, crossings: &Crossings, roots: &[usize]) {
+        for (index, crossing) in crossings.crossings.iter().enumerate() {
+            let branch = &crossing.branch;
+            let length = branch.length();
+            let mut cuts = Vec::new();
+            if branch.is_closed() {
+                let vertex = self.vertex(branch.nodes[0].point());
+                cuts.extend([0.0, length].map(|t| Cut { t, vertex, region: None }));
+            } else {
+                for (end, t, node) in [
+                    (branch.ends[0], 0.0, 0),
+                    (branch.ends[1], length, branch.nodes.len() - 1),
+                ] {
+                    let vertex = match end {
+                        End::AtRoot(root) => roots[root],
+                        _ => self.vertex(branch.nodes[node].point()),
+                    };
+                    cuts.push(Cut { t, vertex, region: None });
+                }
+            }
+            self.tracks.push(Track {
+                source: Source::Crossing(index),
+                sheets: crossing.sheets,
+                cuts,
+            });
+        }
+    }
+
+    /// Common points of three sheets: each must lie on all three of their curves.
+    fn add_triples(
+        &mut self,
+        regions: &Regions,
+        crossings: &Crossings,
+        first: usize,
+        tolerances: Tolerances,
+        faults: &mut Faults,
+    ) {
+        let mut by_sheets: BTreeMap<[usize; 3], Vec<usize>> = BTreeMap::new();
+        for (index, triple) in crossings.triples.iter().enumerate() {
+            let [a, b] = crossings.crossings[triple.crossing].sheets;
+            let mut key = [a, b, triple.sheet];
+            key.sort_unstable();
+            by_sheets.entry(key).or_default().push(index);
+        }
+        let mut of_pair: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
+        for (index, crossing) in crossings.crossings.iter().enumerate() {
+            of_pair.entry(crossing.sheets).or_default().push(index);
+        }
+        let domain = regions.domain.grown(tolerances.same);
+        for (key, mut left) in by_sheets {
+            while let Some(&lead) = left.first() {
+                let point = crossings.triples[lead].point;
+                let near = |index: &usize| {
+                    crossings.triples[*index].point.distance(point) <= 10.0 * tolerances.same
+                };
+                let (group, rest): (Vec<usize>, Vec<usize>) = left.iter().partition(|index| near(index));
+                left = rest;
+                let vertex = self.vertex(point);
+                let mut pairs = Vec::new();
+                for index in group {
+                    let triple = &crossings.triples[index];
+                    self.cut(first + triple.crossing, triple.t, vertex, regions.sheets[triple.sheet].region);
+                    pairs.push(crossings.crossings[triple.crossing].sheets);
+                }
+                let all = [[key[0], key[1]], [key[0], key[2]], [key[1], key[2]]];
+                for (k, pair) in all.iter().enumerate() {
+                    let count = pairs.iter().filter(|one| *one == pair).count();
+                    if count == 1 {
+                        continue;
+                    }
+                    // A curve that was seen to miss the point is asked for the nearest place on it.
+                    let third = regions.sheets[key[2 - k]].region;
+                    let repaired = count == 0
+                        && of_pair.get(pair).into_iter().flatten().any(|&index| {
+                            let (t, distance) = crossings.crossings[index].branch.project(point);
+                            let close = distance <= 100.0 * tolerances.same;
+                            if close {
+                                self.cut(first + index, t, vertex, third);
+                            }
+                            close
+                        });
+                    faults.triples += usize::from(!repaired && domain.holds(point));
+                }
+            }
+        }
+    }
+
+    fn cut(&mut self, track: usize, t: f64, vertex: usize, region: usize) {
+        let region = Some(region);
+        self.tracks[track].cuts.push(Cut { t, vertex, region });
+    }
+}
