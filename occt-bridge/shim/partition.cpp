@@ -359,7 +359,7 @@ std::unique_ptr<PartitionHandle> run_partition(const ShapeList& list, bool paral
 
 PartitionTables tables_of(const PartitionHandle& partition) { return *partition.tables; }
 
-std::unique_ptr<SolidsHandle> build_solids(const PartitionHandle& partition, const MergeData& data) {
+std::unique_ptr<SolidsHandle> solids_of(const std::vector<TopoDS_Face>& faces, const MergeData& data) {
   auto out = std::make_unique<SolidsHandle>();
   BRep_Builder builder;
   builder.MakeCompound(out->compound);
@@ -373,7 +373,7 @@ std::unique_ptr<SolidsHandle> build_solids(const PartitionHandle& partition, con
       builder.MakeShell(shell);
       for (std::uint32_t k = 0; k < data.faces_of_shells[shell_index]; ++k, ++use_index) {
         const std::uint32_t use = data.uses[use_index];
-        const TopoDS_Face& face = partition.faces.at(use / 2);
+        const TopoDS_Face& face = faces.at(use / 2);
         builder.Add(shell, face.Oriented(use % 2 == 1 ? TopAbs_REVERSED : TopAbs_FORWARD));
       }
       shell.Closed(Standard_True);
@@ -382,8 +382,12 @@ std::unique_ptr<SolidsHandle> build_solids(const PartitionHandle& partition, con
     builder.Add(out->compound, solid);
     out->solids.push_back(solid);
   }
-  for (std::uint32_t face : data.faces) out->faces.push_back(partition.faces.at(face));
+  for (std::uint32_t face : data.faces) out->faces.push_back(faces.at(face));
   return out;
+}
+
+std::unique_ptr<SolidsHandle> build_solids(const PartitionHandle& partition, const MergeData& data) {
+  return solids_of(partition.faces, data);
 }
 
 std::unique_ptr<ShapeHandle> solid_of(const SolidsHandle& solids, std::size_t index) {
