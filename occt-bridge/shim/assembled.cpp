@@ -8,6 +8,7 @@
 #include <Geom_Line.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Shell.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
@@ -192,6 +193,33 @@ class Assembler {
 };
 
 }  // namespace
+
+std::unique_ptr<SolidsHandle> solids_of(const std::vector<TopoDS_Face>& faces, const MergeData& data) {
+  auto out = std::make_unique<SolidsHandle>();
+  BRep_Builder builder;
+  builder.MakeCompound(out->compound);
+  std::size_t shell_index = 0;
+  std::size_t use_index = 0;
+  for (std::uint32_t shells : data.shells_of_solids) {
+    TopoDS_Solid solid;
+    builder.MakeSolid(solid);
+    for (std::uint32_t s = 0; s < shells; ++s, ++shell_index) {
+      TopoDS_Shell shell;
+      builder.MakeShell(shell);
+      for (std::uint32_t k = 0; k < data.faces_of_shells[shell_index]; ++k, ++use_index) {
+        const std::uint32_t use = data.uses[use_index];
+        const TopoDS_Face& face = faces.at(use / 2);
+        builder.Add(shell, face.Oriented(use % 2 == 1 ? TopAbs_REVERSED : TopAbs_FORWARD));
+      }
+      shell.Closed(Standard_True);
+      builder.Add(solid, shell);
+    }
+    builder.Add(out->compound, solid);
+    out->solids.push_back(solid);
+  }
+  for (std::uint32_t face : data.faces) out->faces.push_back(faces.at(face));
+  return out;
+}
 
 std::unique_ptr<SolidsHandle> build_assembled(const AssembledData& data) { return solids_of(Assembler(data).faces(), data.solids); }
 

@@ -23,7 +23,10 @@ struct Knots {
   TColStd_Array1OfReal values;
   TColStd_Array1OfInteger multiplicities;
 
-  explicit Knots(Reals flat) : values(1, distinct(flat)), multiplicities(1, distinct(flat)) {
+  explicit Knots(Reals flat) : Knots(flat, distinct(flat)) {}
+
+ private:
+  Knots(Reals flat, int count) : values(1, count), multiplicities(1, count) {
     int at = 0;
     for (std::size_t i = 0; i < flat.size(); ++i) {
       if (i == 0 || flat[i] != flat[i - 1]) {

@@ -13,7 +13,19 @@
 
 namespace clinothem::occt {
 
-using Reals = rust::Slice<const double>;
+// Numbers that someone else owns. (Every access to a rust::Slice is a call into Rust.)
+class Reals {
+ public:
+  Reals(const double* first, std::size_t count) : first_(first), count_(count) {}
+  const double* data() const { return first_; }
+  std::size_t size() const { return count_; }
+  bool empty() const { return count_ == 0; }
+  double operator[](std::size_t i) const { return first_[i]; }
+
+ private:
+  const double* first_;
+  std::size_t count_;
+};
 
 inline Reals reals(const rust::Vec<double>& values) { return Reals(values.data(), values.size()); }
 

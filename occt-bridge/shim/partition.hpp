@@ -30,8 +30,6 @@ std::unique_ptr<PartitionHandle> run_partition(const ShapeList& arguments, bool 
 std::unique_ptr<PartitionHandle> adopt(const ShapeList& arguments);
 PartitionTables tables_of(const PartitionHandle& partition);
 
-// Shells and solids of faces that are there.
-std::unique_ptr<SolidsHandle> solids_of(const std::vector<TopoDS_Face>& faces, const MergeData& data);
 std::unique_ptr<SolidsHandle> build_solids(const PartitionHandle& partition, const MergeData& data);
 std::unique_ptr<ShapeHandle> solid_of(const SolidsHandle& solids, std::size_t index);
 std::unique_ptr<ShapeHandle> face_of(const SolidsHandle& solids, std::size_t index);

@@ -104,8 +104,8 @@ impl Solids {
     /// # Errors
     /// [`BridgeError::Input`] names the table entry: an index out of range, a value that is not finite, a tolerance that is not above
     /// 0, knots that are not clamped, a range outside its curve, a loop that does not close, an edge without a pcurve on a face's
-    /// surface, a face that no solid or more than two use, or two on the same side, and a shell that does not close (an edge must be
-    /// used as often in one direction as in the other).
+    /// surface, a face that no solid or more than two use, or two on the same side, and a shell that does not close or touches itself
+    /// along an edge (what only touches is two shells, of two solids).
     pub fn from_tables(tables: &Tables) -> Result<Self, BridgeError> {
         let operation = "assembling solids";
         check::check(tables).map_err(|message| input(operation, message))?;

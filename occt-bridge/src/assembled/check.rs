@@ -231,8 +231,8 @@ fn users(tables: &Tables) -> Result<(), String> {
     }
 }
 
-/// In a closed shell an edge is used once in each direction, or more often, but as often, where the shell touches itself. A seam is
-/// used twice by one face, and an edge that is a point, once.
+/// In a closed shell an edge is used once in each direction; a seam is used twice by one face, and an edge that is a point, once. The
+/// kernel holds a shell that touches itself along an edge to be invalid.
 fn closed(tables: &Tables) -> Result<(), String> {
     let mut counts = vec![[0_usize; 2]; tables.edges.len()];
     for (s, solid) in tables.solids.iter().enumerate() {
@@ -248,9 +248,9 @@ fn closed(tables: &Tables) -> Result<(), String> {
             }
             for (edge, _) in uses() {
                 let [forward, backward] = counts[edge];
-                if forward != backward && tables.edges[edge].curve.is_some() {
+                if counts[edge] != [1, 1] && tables.edges[edge].curve.is_some() {
                     return Err(format!(
-                        "shell {h} of solid {s} is not closed: it uses edge {edge} {forward} times forwards and {backward} times backwards"
+                        "shell {h} of solid {s} is not closed, or touches itself: it uses edge {edge} {forward} times forwards and {backward} times backwards, not once each"
                     ));
                 }
             }

@@ -67,7 +67,12 @@ fn add_geometry(tables: &Tables, data: &mut bridge::AssembledData) -> Result<(),
                 poles,
                 weights,
             } => {
-                add_numbers(&mut data.numbers, knots, poles.as_flattened(), weights);
+                add_numbers(
+                    &mut data.numbers,
+                    knots,
+                    poles.as_flattened(),
+                    weights.as_deref(),
+                );
                 spline(*degree, poles.len(), weights.is_some())?
             }
         });
@@ -87,7 +92,12 @@ fn add_geometry(tables: &Tables, data: &mut bridge::AssembledData) -> Result<(),
                 poles,
                 weights,
             } => {
-                add_numbers(&mut data.numbers, knots, poles.as_flattened(), weights);
+                add_numbers(
+                    &mut data.numbers,
+                    knots,
+                    poles.as_flattened(),
+                    weights.as_deref(),
+                );
                 spline(*degree, poles.len(), weights.is_some())?
             }
         });
@@ -95,10 +105,10 @@ fn add_geometry(tables: &Tables, data: &mut bridge::AssembledData) -> Result<(),
     Ok(())
 }
 
-fn add_numbers(to: &mut Vec<f64>, knots: &[f64], poles: &[f64], weights: &Option<Vec<f64>>) {
+fn add_numbers(to: &mut Vec<f64>, knots: &[f64], poles: &[f64], weights: Option<&[f64]>) {
     to.extend_from_slice(knots);
     to.extend_from_slice(poles);
-    to.extend(weights.iter().flatten());
+    to.extend_from_slice(weights.unwrap_or_default());
 }
 
 fn line(to: &mut Vec<f64>, numbers: &[f64]) -> bridge::CurveRow {
@@ -143,7 +153,7 @@ fn flat_surface(surface: &Surface, to: &mut Vec<f64>) -> Result<bridge::SurfaceR
             weights,
         } => {
             to.extend_from_slice(knots_u);
-            add_numbers(to, knots_v, poles.as_flattened(), weights);
+            add_numbers(to, knots_v, poles.as_flattened(), weights.as_deref());
             bridge::SurfaceRow {
                 degree_u: small(*degree_u)?,
                 degree_v: small(*degree_v)?,
