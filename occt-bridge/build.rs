@@ -17,9 +17,11 @@ const OLDEST: (u32, u32) = (7, 6);
 const TOO_NEW: u32 = 8;
 
 /// Every shim: one per task.
-const SHIMS: [&str; 8] = [
+const SHIMS: [&str; 10] = [
     "shape",
+    "geometry",
     "topology",
+    "assembled",
     "partition",
     "measure",
     "check",

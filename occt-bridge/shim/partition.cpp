@@ -1,5 +1,6 @@
 #include "occt-bridge/shim/partition.hpp"
 
+#include "occt-bridge/shim/assembled.hpp"
 #include "occt-bridge/src/ffi.rs.h"
 
 #include <BOPAlgo_Builder.hxx>
@@ -21,7 +22,6 @@
 #include <TopoDS.hxx>
 #include <TopoDS_AlertWithShape.hxx>
 #include <TopoDS_Iterator.hxx>
-#include <TopoDS_Shell.hxx>
 
 #include <algorithm>
 #include <map>
@@ -360,30 +360,7 @@ std::unique_ptr<PartitionHandle> run_partition(const ShapeList& list, bool paral
 PartitionTables tables_of(const PartitionHandle& partition) { return *partition.tables; }
 
 std::unique_ptr<SolidsHandle> build_solids(const PartitionHandle& partition, const MergeData& data) {
-  auto out = std::make_unique<SolidsHandle>();
-  BRep_Builder builder;
-  builder.MakeCompound(out->compound);
-  std::size_t shell_index = 0;
-  std::size_t use_index = 0;
-  for (std::uint32_t shells : data.shells_of_solids) {
-    TopoDS_Solid solid;
-    builder.MakeSolid(solid);
-    for (std::uint32_t s = 0; s < shells; ++s, ++shell_index) {
-      TopoDS_Shell shell;
-      builder.MakeShell(shell);
-      for (std::uint32_t k = 0; k < data.faces_of_shells[shell_index]; ++k, ++use_index) {
-        const std::uint32_t use = data.uses[use_index];
-        const TopoDS_Face& face = partition.faces.at(use / 2);
-        builder.Add(shell, face.Oriented(use % 2 == 1 ? TopAbs_REVERSED : TopAbs_FORWARD));
-      }
-      shell.Closed(Standard_True);
-      builder.Add(solid, shell);
-    }
-    builder.Add(out->compound, solid);
-    out->solids.push_back(solid);
-  }
-  for (std::uint32_t face : data.faces) out->faces.push_back(partition.faces.at(face));
-  return out;
+  return solids_of(partition.faces, data);
 }
 
 std::unique_ptr<ShapeHandle> solid_of(const SolidsHandle& solids, std::size_t index) {

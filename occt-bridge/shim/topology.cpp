@@ -1,29 +1,19 @@
 #include "occt-bridge/shim/topology.hpp"
 
 #include "occt-bridge/shim/check.hpp"
+#include "occt-bridge/shim/geometry.hpp"
 #include "occt-bridge/shim/measure.hpp"
 #include "occt-bridge/src/ffi.rs.h"
 
 #include <BRep_Builder.hxx>
-#include <Geom2d_BSplineCurve.hxx>
-#include <Geom2d_Line.hxx>
-#include <Geom_BSplineCurve.hxx>
-#include <Geom_BSplineSurface.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_Plane.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
-#include <TColStd_Array2OfReal.hxx>
-#include <TColgp_Array1OfPnt.hxx>
-#include <TColgp_Array1OfPnt2d.hxx>
-#include <TColgp_Array2OfPnt.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
-#include <gp_Ax3.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +24,6 @@ namespace clinothem::occt {
 
 namespace {
 
-using Reals = rust::Vec<double>;
-
-gp_Pnt point3(const Reals& values, std::size_t i) { return gp_Pnt(values[3 * i], values[3 * i + 1], values[3 * i + 2]); }
-
 std::string text(const gp_Pnt& p) {
   std::ostringstream out;
   out.precision(10);
@@ -45,91 +31,12 @@ std::string text(const gp_Pnt& p) {
   return out.str();
 }
 
-// OpenCASCADE wants distinct knots and their multiplicities.
-struct Knots {
-  TColStd_Array1OfReal values;
-  TColStd_Array1OfInteger multiplicities;
+CurveNumbers numbers(const CurveData& d) { return {d.degree, reals(d.knots), reals(d.poles), reals(d.weights)}; }
 
-  explicit Knots(const Reals& flat) : values(1, distinct(flat)), multiplicities(1, distinct(flat)) {
-    int at = 0;
-    for (std::size_t i = 0; i < flat.size(); ++i) {
-      if (i == 0 || flat[i] != flat[i - 1]) {
-        values(++at) = flat[i];
-        multiplicities(at) = 0;
-      }
-      ++multiplicities(at);
-    }
-  }
+CurveNumbers numbers(const PcurveData& d) { return {d.degree, reals(d.knots), reals(d.poles), reals(d.weights)}; }
 
-  static int distinct(const Reals& flat) {
-    int n = 0;
-    for (std::size_t i = 0; i < flat.size(); ++i)
-      if (i == 0 || flat[i] != flat[i - 1]) ++n;
-    return n;
-  }
-};
-
-Handle(Geom_BSplineCurve) bspline_curve(const Reals& knots, const Reals& poles, const Reals& weights, int degree) {
-  const Knots k(knots);
-  const int n = static_cast<int>(poles.size() / 3);
-  TColgp_Array1OfPnt p(1, n);
-  for (int i = 0; i < n; ++i) p(i + 1) = point3(poles, static_cast<std::size_t>(i));
-  if (weights.empty()) return new Geom_BSplineCurve(p, k.values, k.multiplicities, degree);
-  TColStd_Array1OfReal w(1, n);
-  for (int i = 0; i < n; ++i) w(i + 1) = weights[static_cast<std::size_t>(i)];
-  return new Geom_BSplineCurve(p, w, k.values, k.multiplicities, degree);
-}
-
-Handle(Geom2d_Curve) plane_curve(const PcurveData& data, double first, double last) {
-  if (data.degree == 0) {
-    const gp_Pnt2d origin(data.poles[0], data.poles[1]);
-    const gp_Vec2d direction(data.poles[2], data.poles[3]);
-    if (std::abs(direction.Magnitude() - 1.0) < 1e-15) return new Geom2d_Line(origin, gp_Dir2d(direction));
-    TColgp_Array1OfPnt2d p(1, 2);
-    p(1) = origin.Translated(first * direction);
-    p(2) = origin.Translated(last * direction);
-    TColStd_Array1OfReal k(1, 2);
-    k(1) = first;
-    k(2) = last;
-    TColStd_Array1OfInteger m(1, 2);
-    m.Init(2);
-    return new Geom2d_BSplineCurve(p, k, m, 1);
-  }
-  const Knots k(data.knots);
-  const int n = static_cast<int>(data.poles.size() / 2);
-  TColgp_Array1OfPnt2d p(1, n);
-  for (int i = 0; i < n; ++i) {
-    const auto at = static_cast<std::size_t>(2 * i);
-    p(i + 1) = gp_Pnt2d(data.poles[at], data.poles[at + 1]);
-  }
-  const int degree = static_cast<int>(data.degree);
-  if (data.weights.empty()) return new Geom2d_BSplineCurve(p, k.values, k.multiplicities, degree);
-  TColStd_Array1OfReal w(1, n);
-  for (int i = 0; i < n; ++i) w(i + 1) = data.weights[static_cast<std::size_t>(i)];
-  return new Geom2d_BSplineCurve(p, w, k.values, k.multiplicities, degree);
-}
-
-Handle(Geom_Surface) surface_of(const SurfaceData& data) {
-  if (data.degree_u == 0) {
-    const gp_Vec normal(point3(data.poles, 1).XYZ());
-    const gp_Vec x(point3(data.poles, 2).XYZ());
-    return new Geom_Plane(gp_Ax3(point3(data.poles, 0), gp_Dir(normal), gp_Dir(x)));
-  }
-  const Knots u(data.knots_u);
-  const Knots v(data.knots_v);
-  const int nu = static_cast<int>(data.knots_u.size() - data.degree_u - 1);
-  const int nv = static_cast<int>(data.knots_v.size() - data.degree_v - 1);
-  TColgp_Array2OfPnt p(1, nu, 1, nv);
-  for (int i = 0; i < nu; ++i)
-    for (int j = 0; j < nv; ++j) p(i + 1, j + 1) = point3(data.poles, static_cast<std::size_t>(i * nv + j));
-  const int du = static_cast<int>(data.degree_u);
-  const int dv = static_cast<int>(data.degree_v);
-  if (data.weights.empty())
-    return new Geom_BSplineSurface(p, u.values, v.values, u.multiplicities, v.multiplicities, du, dv);
-  TColStd_Array2OfReal w(1, nu, 1, nv);
-  for (int i = 0; i < nu; ++i)
-    for (int j = 0; j < nv; ++j) w(i + 1, j + 1) = data.weights[static_cast<std::size_t>(i * nv + j)];
-  return new Geom_BSplineSurface(p, w, u.values, v.values, u.multiplicities, v.multiplicities, du, dv);
+SurfaceNumbers numbers(const SurfaceData& d) {
+  return {d.degree_u, d.degree_v, reals(d.knots_u), reals(d.knots_v), reals(d.poles), reals(d.weights)};
 }
 
 class Maker {
@@ -153,10 +60,10 @@ class Maker {
   };
 
   void make_geometry() {
-    for (const SurfaceData& s : data_.surfaces) surfaces_.push_back(surface_of(s));
+    for (const SurfaceData& s : data_.surfaces) surfaces_.push_back(surface_of(numbers(s)));
     for (std::size_t i = 0; i * 3 < data_.vertices.size(); ++i) {
       TopoDS_Vertex vertex;
-      builder_.MakeVertex(vertex, point3(data_.vertices, i), data_.tolerance);
+      builder_.MakeVertex(vertex, vertex_point(i), data_.tolerance);
       vertices_.push_back(vertex);
     }
     // A straight edge that lies on planes only is a line; beside a B-spline surface it keeps that surface's parameter.
@@ -173,18 +80,17 @@ class Maker {
   };
 
   CurveOf curve_of(const CurveData& data, bool on_spline) const {
-    const std::size_t n = data.poles.size() / 3;
+    const Reals poles = reals(data.poles);
+    const gp_Pnt a = point3(poles, 0);
     double extent = 0.0;
-    for (std::size_t i = 1; i < n; ++i) extent = std::max(extent, point3(data.poles, 0).Distance(point3(data.poles, i)));
+    for (std::size_t i = 1; i < poles.size() / 3; ++i) extent = std::max(extent, a.Distance(point3(poles, i)));
     if (extent <= data_.tolerance) return {};
-    if (data.degree > 0) return {bspline_curve(data.knots, data.poles, data.weights, static_cast<int>(data.degree)), 1.0};
-    const gp_Pnt a = point3(data.poles, 0);
-    const gp_Pnt b = point3(data.poles, 1);
-    if (!on_spline) return {new Geom_Line(a, gp_Dir(gp_Vec(a, b))), a.Distance(b)};
-    Reals knots;
-    for (double k : {0.0, 0.0, 1.0, 1.0}) knots.push_back(k);
-    return {bspline_curve(knots, data.poles, Reals(), 1), 1.0};
+    if (data.degree > 0 || on_spline) return {bspline_curve(numbers(data)), 1.0};
+    const gp_Pnt b = point3(poles, 1);
+    return {new Geom_Line(a, gp_Dir(gp_Vec(a, b))), a.Distance(b)};
   }
+
+  gp_Pnt vertex_point(std::size_t i) const { return point3(reals(data_.vertices), i); }
 
   void make_edges() {
     for (std::size_t i = 0; i < data_.edges.size(); ++i) {
@@ -208,7 +114,7 @@ class Maker {
   }
 
   void check_end(std::size_t edge, std::size_t vertex, const gp_Pnt& on_curve) const {
-    const gp_Pnt p = point3(data_.vertices, vertex);
+    const gp_Pnt p = vertex_point(vertex);
     const double gap = p.Distance(on_curve);
     if (gap <= data_.tolerance) return;
     std::ostringstream out;
@@ -218,7 +124,7 @@ class Maker {
   }
 
   static bool same(const PcurveData& a, const PcurveData& b) {
-    auto equal = [](const Reals& x, const Reals& y) { return std::equal(x.begin(), x.end(), y.begin(), y.end()); };
+    auto equal = [](const rust::Vec<double>& x, const rust::Vec<double>& y) { return std::equal(x.begin(), x.end(), y.begin(), y.end()); };
     return a.degree == b.degree && equal(a.knots, b.knots) && equal(a.poles, b.poles) && equal(a.weights, b.weights);
   }
 
@@ -247,10 +153,10 @@ class Maker {
       const PcurveData* forward = entry.second.forward_data;
       const PcurveData* reversed = entry.second.reversed_data;
       const PcurveData* first = forward != nullptr ? forward : reversed;
-      const Handle(Geom2d_Curve) one = plane_curve(*first, edge.first, edge.last);
+      const Handle(Geom2d_Curve) one = plane_curve(numbers(*first), edge.first, edge.last);
       check_curve(e, entry.first.second, one);
       if (forward != nullptr && reversed != nullptr && !same(*forward, *reversed)) {
-        const Handle(Geom2d_Curve) two = plane_curve(*reversed, edge.first, edge.last);
+        const Handle(Geom2d_Curve) two = plane_curve(numbers(*reversed), edge.first, edge.last);
         check_curve(e, entry.first.second, two);
         builder_.UpdateEdge(edges_[e], one, two, surface, here, data_.tolerance);
       } else {
@@ -268,7 +174,7 @@ class Maker {
       const double t = edge.first + (edge.last - edge.first) * i / samples;
       const gp_Pnt2d uv = curve->Value(t);
       const gp_Pnt on_surface = surfaces_[s]->Value(uv.X(), uv.Y());
-      const gp_Pnt on_curve = curves_[edge.curve].curve.IsNull() ? point3(data_.vertices, edge.start)
+      const gp_Pnt on_curve = curves_[edge.curve].curve.IsNull() ? vertex_point(edge.start)
                                                                  : curves_[edge.curve].curve->Value(t);
       const double gap = on_surface.Distance(on_curve);
       if (gap <= data_.tolerance) continue;
@@ -335,7 +241,7 @@ void refuse_invalid(const TopoDS_Shape& shape) {
 
 std::unique_ptr<ShapeHandle> build_solid(const TopologyData& data) {
   const Maker maker(data);
-  const gp_Pnt reference = point3(data.vertices, 0);
+  const gp_Pnt reference = point3(reals(data.vertices), 0);
   double volume = 0.0;
   for (const TopoDS_Face& face : maker.faces()) volume += face_flux(face, reference, 1e-4).value;  // its sign is wanted
   if (!(std::abs(volume) > 0.0)) throw BadInput("the faces enclose no volume");

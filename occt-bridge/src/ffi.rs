@@ -100,6 +100,68 @@ pub(crate) mod bridge {
         faces: Vec<u32>,
     }
 
+    struct VertexRow {
+        point: [f64; 3],
+        tolerance: f64,
+    }
+
+    /// Degree 0 is a line: of two poles in space, of origin and direction on a surface.
+    struct CurveRow {
+        degree: u32,
+        poles: u32,
+        rational: bool,
+    }
+
+    /// Degree 0 is a plane: poles are origin, normal, x axis.
+    struct SurfaceRow {
+        degree_u: u32,
+        degree_v: u32,
+        poles_u: u32,
+        poles_v: u32,
+        rational: bool,
+    }
+
+    /// `on` counts its rows in the table of that name.
+    struct EdgeRow {
+        degenerate: bool,
+        curve: u32,
+        first: f64,
+        last: f64,
+        start: u32,
+        end: u32,
+        tolerance: f64,
+        on: u32,
+    }
+
+    struct OnRow {
+        surface: u32,
+        forward: u32,
+        seam: bool,
+        reversed: u32,
+    }
+
+    struct FaceRow {
+        surface: u32,
+        tolerance: f64,
+        loops: u32,
+    }
+
+    /// No row owns memory, so that a table is one block: `numbers` holds knots, poles and weights of the curves, then of the
+    /// surfaces, then of the pcurves; `loops` counts the uses of each loop.
+    struct AssembledData {
+        vertices: Vec<VertexRow>,
+        curves: Vec<CurveRow>,
+        surfaces: Vec<SurfaceRow>,
+        pcurves: Vec<CurveRow>,
+        numbers: Vec<f64>,
+        edges: Vec<EdgeRow>,
+        on: Vec<OnRow>,
+        faces: Vec<FaceRow>,
+        loops: Vec<u32>,
+        uses: Vec<u32>,
+        solids: MergeData,
+    }
+
     struct BoxData {
         min: [f64; 3],
         max: [f64; 3],
@@ -169,6 +231,7 @@ pub(crate) mod bridge {
         include!("occt-bridge/shim/shape.hpp");
         include!("occt-bridge/shim/topology.hpp");
         include!("occt-bridge/shim/partition.hpp");
+        include!("occt-bridge/shim/assembled.hpp");
         include!("occt-bridge/shim/measure.hpp");
         include!("occt-bridge/shim/check.hpp");
         include!("occt-bridge/shim/mesh.hpp");
@@ -206,6 +269,7 @@ pub(crate) mod bridge {
             partition: &PartitionHandle,
             data: &MergeData,
         ) -> Result<UniquePtr<SolidsHandle>>;
+        fn build_assembled(data: &AssembledData) -> Result<UniquePtr<SolidsHandle>>;
         fn solid_of(solids: &SolidsHandle, index: usize) -> Result<UniquePtr<ShapeHandle>>;
         fn face_of(solids: &SolidsHandle, index: usize) -> Result<UniquePtr<ShapeHandle>>;
         fn compound_of_solids(solids: &SolidsHandle) -> Result<UniquePtr<ShapeHandle>>;

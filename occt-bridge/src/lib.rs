@@ -20,11 +20,13 @@
 //! # }
 //! ```
 
+mod assembled;
 mod brep;
 mod bytes;
 mod check;
 mod error;
 mod ffi;
+mod geometry;
 mod measure;
 mod merge;
 mod mesh;
@@ -36,6 +38,7 @@ mod step;
 mod tables;
 mod topology;
 
+pub use assembled::{OnSurface, TableEdge, TableFace, TableSolid, TableVertex, Tables};
 pub use brep::{read_brep, write_brep};
 pub use check::{Defect, defects};
 pub use error::BridgeError;

@@ -4,10 +4,10 @@
 
 use crate::error::{BridgeError, input};
 use crate::ffi::bridge;
+use crate::geometry::{
+    check_curve, check_pcurve, check_surface, curve_domain, finite, index, pcurve_domain, small,
+};
 use crate::topology::{Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology};
-
-/// Largest degree of the kernel's B-splines.
-const MAX_DEGREE: usize = 25;
 
 /// Flattens the tables, checking everything that needs no geometry.
 pub(crate) fn checked(
@@ -95,127 +95,44 @@ fn is_degenerate(topology: &Topology, edge: &Edge) -> bool {
     }
 }
 
-fn finite(what: &str, values: &[f64]) -> Result<(), String> {
-    match values.iter().position(|v| !v.is_finite()) {
-        Some(at) => Err(format!(
-            "{what} hold {} at number {at}; only finite numbers can be used",
-            values[at]
-        )),
-        None => Ok(()),
-    }
-}
-
-fn check_knots(what: &str, knots: &[f64], degree: usize, poles: usize) -> Result<(), String> {
-    if degree == 0 || degree > MAX_DEGREE {
-        return Err(format!(
-            "the degree{what} is {degree}; it must be between 1 and {MAX_DEGREE}"
-        ));
-    }
-    finite("knots", knots)?;
-    if poles < degree + 1 || knots.len() != poles + degree + 1 {
-        return Err(format!(
-            "there are {} knots{what} for {poles} poles of degree {degree}; poles + degree + 1 are needed, and at least degree + 1 poles",
-            knots.len()
-        ));
-    }
-    if let Some(i) = knots.windows(2).position(|pair| pair[1] < pair[0]) {
-        return Err(format!(
-            "knot {} is {}, below the previous knot {}",
-            i + 1,
-            knots[i + 1],
-            knots[i]
-        ));
-    }
-    let clamped = knots[..=degree].iter().all(|k| *k == knots[0])
-        && knots[poles..].iter().all(|k| *k == knots[poles]);
-    // With clamped ends, an inner knot of multiplicity above the degree would tear the curve.
-    let torn = (1..poles).any(|i| knots[i] == knots[i + degree]);
-    if !clamped || torn || knots[degree] == knots[poles] {
-        return Err(format!(
-            "the knots{what} are not clamped: the first and last must be there exactly degree + 1 times, others at most degree times"
-        ));
-    }
-    Ok(())
-}
-
-fn check_weights(weights: Option<&Vec<f64>>, poles: usize) -> Result<Vec<f64>, String> {
-    let Some(weights) = weights else {
-        return Ok(Vec::new());
-    };
-    if weights.len() != poles {
-        return Err(format!(
-            "there are {} weights for {poles} poles",
-            weights.len()
-        ));
-    }
-    if let Some(i) = weights.iter().position(|w| !(*w > 0.0 && w.is_finite())) {
-        return Err(format!("weight {i} is {}; it must be above 0", weights[i]));
-    }
-    Ok(weights.clone())
-}
-
 fn flat_curve(curve: &Curve) -> Result<bridge::CurveData, String> {
-    match curve {
-        Curve::Line { start, end } => {
-            let poles = [*start, *end].as_flattened().to_vec();
-            finite("the ends of the line", &poles)?;
-            Ok(bridge::CurveData {
-                degree: 0,
-                knots: Vec::new(),
-                poles,
-                weights: Vec::new(),
-            })
-        }
+    check_curve(curve)?;
+    Ok(match curve {
+        Curve::Line { start, end } => bridge::CurveData {
+            degree: 0,
+            knots: Vec::new(),
+            poles: [*start, *end].as_flattened().to_vec(),
+            weights: Vec::new(),
+        },
         Curve::BSpline {
             degree,
             knots,
             poles,
             weights,
-        } => {
-            check_knots("", knots, *degree, poles.len())?;
-            finite("poles", poles.as_flattened())?;
-            Ok(bridge::CurveData {
-                degree: small(*degree)?,
-                knots: knots.clone(),
-                poles: poles.as_flattened().to_vec(),
-                weights: check_weights(weights.as_ref(), poles.len())?,
-            })
-        }
-    }
-}
-
-fn small(value: usize) -> Result<u32, String> {
-    u32::try_from(value).map_err(|_| format!("{value} is too large"))
+        } => bridge::CurveData {
+            degree: small(*degree)?,
+            knots: knots.clone(),
+            poles: poles.as_flattened().to_vec(),
+            weights: weights.clone().unwrap_or_default(),
+        },
+    })
 }
 
 fn flat_surface(surface: &Surface) -> Result<bridge::SurfaceData, String> {
-    match surface {
+    check_surface(surface)?;
+    Ok(match surface {
         Surface::Plane {
             origin,
             normal,
             x_axis,
-        } => {
-            let poles = [*origin, *normal, *x_axis].as_flattened().to_vec();
-            finite("origin, normal and x axis", &poles)?;
-            let cross: [f64; 3] = std::array::from_fn(|i| {
-                let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-                normal[a] * x_axis[b] - normal[b] * x_axis[a]
-            });
-            let length = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if length(&cross) <= 1e-9 * length(normal) * length(x_axis) {
-                return Err(format!(
-                    "the normal {normal:?} and the x axis {x_axis:?} do not span a plane"
-                ));
-            }
-            Ok(bridge::SurfaceData {
-                degree_u: 0,
-                degree_v: 0,
-                knots_u: Vec::new(),
-                knots_v: Vec::new(),
-                poles,
-                weights: Vec::new(),
-            })
-        }
+        } => bridge::SurfaceData {
+            degree_u: 0,
+            degree_v: 0,
+            knots_u: Vec::new(),
+            knots_v: Vec::new(),
+            poles: [*origin, *normal, *x_axis].as_flattened().to_vec(),
+            weights: Vec::new(),
+        },
         Surface::BSpline {
             degree_u,
             degree_v,
@@ -223,36 +140,15 @@ fn flat_surface(surface: &Surface) -> Result<bridge::SurfaceData, String> {
             knots_v,
             poles,
             weights,
-        } => {
-            let count = |knots: &[f64], degree: usize| knots.len().saturating_sub(degree + 1);
-            let (nu, nv) = (count(knots_u, *degree_u), count(knots_v, *degree_v));
-            check_knots(" in u", knots_u, *degree_u, nu)?;
-            check_knots(" in v", knots_v, *degree_v, nv)?;
-            if poles.len() != nu * nv {
-                return Err(format!(
-                    "there are {} poles; the knots want {nu} × {nv}",
-                    poles.len()
-                ));
-            }
-            finite("poles", poles.as_flattened())?;
-            Ok(bridge::SurfaceData {
-                degree_u: small(*degree_u)?,
-                degree_v: small(*degree_v)?,
-                knots_u: knots_u.clone(),
-                knots_v: knots_v.clone(),
-                poles: poles.as_flattened().to_vec(),
-                weights: check_weights(weights.as_ref(), poles.len())?,
-            })
-        }
-    }
-}
-
-fn index(what: &str, value: usize, length: usize) -> Result<(), String> {
-    if value < length {
-        Ok(())
-    } else {
-        Err(format!("names {what} {value}, but there are {length}"))
-    }
+        } => bridge::SurfaceData {
+            degree_u: small(*degree_u)?,
+            degree_v: small(*degree_v)?,
+            knots_u: knots_u.clone(),
+            knots_v: knots_v.clone(),
+            poles: poles.as_flattened().to_vec(),
+            weights: weights.clone().unwrap_or_default(),
+        },
+    })
 }
 
 fn flat_edge(topology: &Topology, edge: &Edge) -> Result<bridge::EdgeData, String> {
@@ -260,10 +156,7 @@ fn flat_edge(topology: &Topology, edge: &Edge) -> Result<bridge::EdgeData, Strin
     index("vertex", edge.start, topology.vertices.len())?;
     index("vertex", edge.end, topology.vertices.len())?;
     let [first, last] = edge.range;
-    let (low, high) = match &topology.curves[edge.curve] {
-        Curve::Line { .. } => (0.0, 1.0),
-        Curve::BSpline { knots, .. } => (knots[0], knots[knots.len() - 1]),
-    };
+    let (low, high) = curve_domain(&topology.curves[edge.curve]);
     if !(first < last && low <= first && last <= high) {
         return Err(format!(
             "its range is {first} to {last}; it must increase and stay within {low} to {high}"
@@ -356,41 +249,32 @@ fn no_pcurve() -> bridge::PcurveData {
 }
 
 fn flat_pcurve(pcurve: &Pcurve, edge: &Edge) -> Result<bridge::PcurveData, String> {
-    match pcurve {
-        Pcurve::Line { origin, direction } => {
-            let poles = [*origin, *direction].as_flattened().to_vec();
-            finite("origin and direction", &poles)?;
-            if *direction == [0.0, 0.0] {
-                return Err("the direction of its curve on the surface is zero".to_owned());
-            }
-            Ok(bridge::PcurveData {
-                has: true,
-                poles,
-                ..no_pcurve()
-            })
-        }
+    check_pcurve(pcurve)?;
+    if let Some((low, high)) = pcurve_domain(pcurve)
+        && (low > edge.range[0] || high < edge.range[1])
+    {
+        return Err(format!(
+            "its curve on the surface runs over {low} to {high}, the edge over {} to {}",
+            edge.range[0], edge.range[1]
+        ));
+    }
+    Ok(match pcurve {
+        Pcurve::Line { origin, direction } => bridge::PcurveData {
+            has: true,
+            poles: [*origin, *direction].as_flattened().to_vec(),
+            ..no_pcurve()
+        },
         Pcurve::BSpline {
             degree,
             knots,
             poles,
             weights,
-        } => {
-            check_knots("", knots, *degree, poles.len())?;
-            finite("poles", poles.as_flattened())?;
-            let (low, high) = (knots[0], knots[knots.len() - 1]);
-            if low > edge.range[0] || high < edge.range[1] {
-                return Err(format!(
-                    "its curve on the surface runs over {low} to {high}, the edge over {} to {}",
-                    edge.range[0], edge.range[1]
-                ));
-            }
-            Ok(bridge::PcurveData {
-                has: true,
-                degree: small(*degree)?,
-                knots: knots.clone(),
-                poles: poles.as_flattened().to_vec(),
-                weights: check_weights(weights.as_ref(), poles.len())?,
-            })
-        }
-    }
+        } => bridge::PcurveData {
+            has: true,
+            degree: small(*degree)?,
+            knots: knots.clone(),
+            poles: poles.as_flattened().to_vec(),
+            weights: weights.clone().unwrap_or_default(),
+        },
+    })
 }

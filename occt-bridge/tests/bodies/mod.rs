@@ -9,6 +9,8 @@
     reason = "tests"
 )]
 
+pub(crate) mod tables;
+
 use occt_bridge::{Curve, Edge, EdgeUse, Face, Pcurve, Shape, Surface, Topology, solid};
 
 pub(crate) fn flat(origin: [f64; 2], direction: [f64; 2]) -> Option<Pcurve> {
