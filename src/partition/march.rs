@@ -108,12 +108,12 @@ impl March<'_> {
                         run.nodes.push(node);
                         run.lengths.push(length);
                     }
-                    if let Some((side, border)) = border {
-                        run.end = End::AtBorder(side, border);
-                        return run;
-                    }
                     if !self.clip.holds(node.point()) {
                         run.end = End::Outside;
+                        return run;
+                    }
+                    if let Some((side, border)) = border {
+                        run.end = End::AtBorder(side, border);
                         return run;
                     }
                     here = node;
