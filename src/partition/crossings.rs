@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::bounds::Bounds;
 use super::check::Faults;
 use super::hermite::{self, Branch, End, Node};
-use super::march::March;
+use super::march::{March, Stop};
 use super::pair::{Pair, Tolerances};
 use super::pierce::{Piercing, Root, Segment};
 use super::region::Regions;
@@ -50,8 +50,12 @@ pub(super) struct Crossings {
     pub(super) triples: Vec<Triple>,
 }
 
-/// How far the end of a branch may be from the root that it ends at, as a fraction of the domain's size.
-const MATCH: f64 = 1e-8;
+/// How far a branch may be from what it should pass through, as a fraction of the domain's size.
+pub(super) const MATCH: f64 = 1e-8;
+
+/// Curves are followed this far beyond the domain, as a fraction of its diagonal: one that leaves the domain and
+/// comes back is one branch.
+const FAR: f64 = 0.25;
 
 /// A root as the start of a branch on one pair of sheets.
 #[derive(Clone, Copy)]
@@ -163,8 +167,20 @@ fn trace(
         sheets: sheets.map(|at| &regions.sheets[at]),
         tolerances,
     };
-    let march = March { pair, clip };
+    let far = regions.domain.grown(FAR * tolerances.scale);
     let mut starts = starts(regions, sheets, roots);
+    let stop = |start: &Start| Stop {
+        point: start.point,
+        q: start.q,
+        side: start.side,
+        border: start.border,
+    };
+    let march = March {
+        pair,
+        far,
+        clip,
+        stops: starts.iter().map(stop).collect(),
+    };
     let mut faults = Faults::default();
     let mut branches = Vec::new();
     for at in 0..starts.len() {

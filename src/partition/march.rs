@@ -1,7 +1,10 @@
 //! Following an intersection curve: steps along its tangent, each corrected by Newton's method and kept only
 //! if the piece that it adds stays on both sheets.
 
+use glam::DVec3;
+
 use super::bounds::Bounds;
+use super::crossings::MATCH;
 use super::hermite::{self, Branch, End, Node};
 use super::pair::{Closing, Pair};
 use super::sheet::Border;
@@ -20,7 +23,22 @@ const FIRST_STEP: f64 = 1e-3;
 /// Follows the curves of one pair of sheets within a box.
 pub(super) struct March<'a> {
     pub(super) pair: Pair<'a>,
+    /// Beyond this box curves are not followed.
+    pub(super) far: Bounds,
+    /// Beyond this box nobody asks where a curve ends.
     pub(super) clip: Bounds,
+    /// Where edges of one sheet pass through the other: a branch ends there, even where a long step would
+    /// leave the sheet and come back to it.
+    pub(super) stops: Vec<Stop>,
+}
+
+/// A known end of branches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    pub(super) point: DVec3,
+    pub(super) q: [f64; 4],
+    pub(super) side: usize,
+    pub(super) border: Border,
 }
 
 /// One direction's worth of nodes after the start, with the lengths between them.
@@ -104,16 +122,23 @@ impl March<'_> {
                     return run;
                 }
                 Step::To(node, length, border) => {
+                    if let Some((node, length, stop)) = self.stopped(&here, &node, length) {
+                        run.nodes.push(node);
+                        run.lengths.push(length);
+                        run.end = End::AtBorder(stop.side, stop.border);
+                        return run;
+                    }
                     if length > self.pair.tolerances.same * 0.01 {
                         run.nodes.push(node);
                         run.lengths.push(length);
                     }
-                    if !self.clip.holds(node.point()) {
-                        run.end = End::Outside;
+                    let wanted = self.clip.holds(node.point());
+                    if let Some((side, border)) = border {
+                        run.end = if wanted { End::AtBorder(side, border) } else { End::Outside };
                         return run;
                     }
-                    if let Some((side, border)) = border {
-                        run.end = End::AtBorder(side, border);
+                    if !wanted && !self.far.holds(node.point()) {
+                        run.end = End::Outside;
                         return run;
                     }
                     here = node;
@@ -178,6 +203,28 @@ impl March<'_> {
             return Step::To(node, length, border);
         }
         Step::Stuck
+    }
+
+    /// The first known end that a piece passes through before its own end, with the piece up to there.
+    fn stopped(&self, here: &Node, next: &Node, length: f64) -> Option<(Node, f64, &Stop)> {
+        let points = hermite::control(here, next, length);
+        let same = self.pair.tolerances.same;
+        let passes = |stop: &'_ &Stop| {
+            let reach = 1.5 * length;
+            if stop.point.distance_squared(here.point()) > reach * reach {
+                return None;
+            }
+            let (s, distance) = hermite::project(&points, stop.point);
+            let inside = s * length > 10.0 * same && (1.0 - s) * length > 10.0 * same;
+            (inside && distance < MATCH * self.pair.tolerances.scale).then_some(s)
+        };
+        let first = self
+            .stops
+            .iter()
+            .filter_map(|stop| passes(&stop).map(|s| (s, stop)))
+            .min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let node = self.pair.node(first.1.q, Some(here.tangent()))?;
+        Some((node, arc(here, &node), first.1))
     }
 
     /// Whether the piece from here to the next node passes through where the branch began.

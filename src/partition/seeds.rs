@@ -174,9 +174,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let Some(node) = self.pair.node(q, None) else {
             return false;
         };
-        if !self.clip.holds(node.point()) {
-            return true;
-        }
         if self.is_traced(&node) {
             return true;
         }
