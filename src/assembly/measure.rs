@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::kernel::{BridgeError, FaceIntegral, Solids, Threads, face_integrals, solid_boxes};
-use crate::model::plan::{AssemblyPlan, net_bounds};
+use crate::model::plan::AssemblyPlan;
 
 /// Relative error asked of the integrals of area and flux of each face.
 /// 1e-6 is right to 1e-9 on these faces and six times faster than 1e-8.
@@ -131,12 +131,12 @@ fn pieces(
     Ok(pieces)
 }
 
-/// Where a volume can be: within the domain, and within its body's control net. The kernel's boxes
+/// Where a volume can be: within the domain, and within its body's box. The kernel's boxes
 /// hold whole surfaces, so they reach beyond both.
 fn limits(plan: &AssemblyPlan, volume: usize) -> (DVec3, DVec3) {
     let body = plan.bodies.iter().find(|body| body.volume == volume);
     let (low, high) = body.map_or((plan.low, plan.high), |body| {
-        net_bounds(plan.shells[body.shell].body.base().net())
+        plan.shells[body.shell].body.bounds()
     });
     (low.max(plan.low), high.min(plan.high))
 }
