@@ -431,6 +431,17 @@ fn the_examples_of_the_reference_are_good() {
         .find(|block| block.starts_with("name"))
         .unwrap();
     check(whole, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+    // Whole features follow the example's own.
+    let features = blocks
+        .iter()
+        .filter(|block| block.starts_with("[[feature]]"));
+    let mut kinds = Vec::new();
+    for block in features {
+        let model = check(&format!("{whole}\n{block}"), &[]);
+        let model = model.unwrap_or_else(|defects| panic!("{defects}"));
+        kinds.push(model.features[model.features.len() - 1].kind.name());
+    }
+    assert_eq!(kinds, ["ellipsoid"]);
     // Lines that stand for themselves are put into the whole example, one at a time.
     let mut lines = 0;
     for block in &blocks {

@@ -2,7 +2,7 @@
 //!
 //! One biquadratic surface, 9 × 5 control points: full circles in u (four quarters, closed by a seam
 //! at u = 0 = 1), half circles in v from the lower pole to the upper one, stretched by the semi-axes
-//! ([PT97] §8.5). The weights are products of 1 and √½. Both v-ends are single points. The normal
+//! (PT97 §8.5). The weights are products of 1 and √½. Both v-ends are single points. The normal
 //! `S_u × S_v` points **outwards**.
 
 use glam::DVec3;
