@@ -7,8 +7,8 @@
 )]
 
 use clinothem::model::{
-    Defects, Expression, FeatureKind, Format, Model, Pick, Profile, Property, Quantity, Rgb,
-    SectionOrigin, Selector, Source, TEMPLATES, TrajectorySpec,
+    Defects, EllipsoidSpec, Expression, FeatureKind, Format, Model, Pick, Profile, Property,
+    Quantity, Rgb, SectionOrigin, Selector, Source, TEMPLATES, TrajectorySpec,
 };
 use clinothem::nurbs::interpolate::Parametrization;
 
@@ -35,7 +35,9 @@ fn the_channel_belt_has_twenty_channels_drawn_from_table_1() {
     };
     assert_eq!((feature.count, feature.level, feature.facies), (20, 1, 1));
     assert_eq!(feature.removes, Selector::Everything);
-    let FeatureKind::Channel(channel) = &feature.kind;
+    let FeatureKind::Channel(channel) = &feature.kind else {
+        panic!("{:?}", feature.kind)
+    };
     let Profile::Quantity(Quantity::Random(width)) = &channel.width else {
         panic!("{:?}", channel.width)
     };
@@ -90,8 +92,78 @@ fn check(text: &str, overrides: &[&str]) -> Result<Model, Defects> {
 }
 
 fn channel(model: &Model, index: usize) -> &clinothem::model::ChannelSpec {
-    let FeatureKind::Channel(channel) = &model.features[index].kind;
+    let FeatureKind::Channel(channel) = &model.features[index].kind else {
+        panic!("{:?}", model.features[index].kind)
+    };
     channel
+}
+
+fn ellipsoid(model: &Model, index: usize) -> &EllipsoidSpec {
+    let FeatureKind::Ellipsoid(ellipsoid) = &model.features[index].kind else {
+        panic!("{:?}", model.features[index].kind)
+    };
+    ellipsoid
+}
+
+#[test]
+fn every_key_of_an_ellipsoid_arrives_where_it_belongs() {
+    let model = check(FULL, &[]).unwrap();
+    let index = model.features.len() - 1;
+    let feature = &model.features[index];
+    assert_eq!(
+        (
+            feature.id.as_str(),
+            feature.count,
+            feature.level,
+            feature.parent
+        ),
+        ("nodule", 4, 5, Some(1))
+    );
+    assert_eq!(
+        feature.removed_by,
+        Selector::Only(vec![Pick::Kind("ellipsoid".to_owned())])
+    );
+    let spec = ellipsoid(&model, index);
+    let means = spec.semi_axes.each_ref().map(Quantity::mean);
+    assert!((means[0] - 4.0).abs() < 1e-12, "{means:?}");
+    assert_eq!(means[1..], [2.5, 1.5]);
+    let center = spec.center.as_ref().unwrap();
+    assert_eq!(center.each_ref().map(Quantity::mean), [500.0, 500.0, -20.0]);
+    assert_eq!(center[0].support(), (100.0, 900.0));
+    assert_eq!(spec.azimuth_deg.support(), (0.0, 180.0));
+    assert_eq!(spec.plunge_deg.constant(), Some(-5.0));
+}
+
+#[test]
+fn an_ellipsoid_can_be_overridden_and_lies_level_to_the_north_anywhere_if_not_told() {
+    let nodule = include_str!("bad_models/nodule.toml");
+    let overrides = ["feature.nodule.semi_axes=[9, { uniform = [1, 2] }, 3]"];
+    let spec = ellipsoid(&check(nodule, &overrides).unwrap(), 0).clone();
+    assert_eq!(spec.semi_axes[0].constant(), Some(9.0));
+    assert_eq!(spec.semi_axes[1].support(), (1.0, 2.0));
+    let bare = nodule
+        .replace("center = [50, 50, -15]\n", "")
+        .replace("azimuth_deg = 40\n", "")
+        .replace("plunge_deg = 10\n", "");
+    let spec = ellipsoid(&check(&bare, &[]).unwrap(), 0).clone();
+    assert_eq!(spec.center, None);
+    assert_eq!(spec.azimuth_deg.constant(), Some(0.0));
+    assert_eq!(spec.plunge_deg.constant(), Some(0.0));
+}
+
+#[test]
+fn an_ellipsoid_that_cannot_reach_the_domain_is_noted() {
+    let nodule = include_str!("bad_models/nodule.toml");
+    let notes = |center: &str| {
+        let model = check(nodule, &[&format!("feature.nodule.center={center}")]).unwrap();
+        model.notes.len()
+    };
+    // The longest semi-axis is 6 m; the block is 100 m wide and 30 m high.
+    assert_eq!(notes("[105.9, 50, -15]"), 0);
+    assert_eq!(notes("[106.1, 50, -15]"), 1);
+    assert_eq!(notes("[50, 50, 6.1]"), 1);
+    assert_eq!(notes("[50, 50, { uniform = [-40, -36.1] }]"), 1);
+    assert_eq!(notes("[50, 50, { uniform = [-40, -35.9] }]"), 0);
 }
 
 #[test]
@@ -359,6 +431,17 @@ fn the_examples_of_the_reference_are_good() {
         .find(|block| block.starts_with("name"))
         .unwrap();
     check(whole, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+    // Whole features follow the example's own.
+    let features = blocks
+        .iter()
+        .filter(|block| block.starts_with("[[feature]]"));
+    let mut kinds = Vec::new();
+    for block in features {
+        let model = check(&format!("{whole}\n{block}"), &[]);
+        let model = model.unwrap_or_else(|defects| panic!("{defects}"));
+        kinds.push(model.features[model.features.len() - 1].kind.name());
+    }
+    assert_eq!(kinds, ["ellipsoid"]);
     // Lines that stand for themselves are put into the whole example, one at a time.
     let mut lines = 0;
     for block in &blocks {

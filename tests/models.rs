@@ -316,6 +316,59 @@ fn channels_that_wander_widen_overhang_and_end_are_assembled() {
 }
 
 #[test]
+fn nodules_are_whole_where_nothing_may_remove_them() {
+    use std::f64::consts::PI;
+    let built = Built::new("nodules/nodules.toml");
+    built.assert_rule(|inside| {
+        oldest_first(inside, |body, holder| match body.rsplit_once('/') {
+            // A nodule of a channel grew in its sand …
+            Some((parent, _)) => holder == parent,
+            // … and stays when something younger comes.
+            None => !holder.contains('/'),
+        })
+    });
+    let contacts = |name: &str| -> Vec<&str> {
+        let names = built.plan.names.iter().map(String::as_str);
+        names
+            .filter(|other| built.contact(name, other) > 0.0)
+            .collect()
+    };
+    let drawn = |name: &str, key: &str| {
+        let instance = &built.realisation.instances[built.volume(name) - 1];
+        let found = instance.drawn.iter().find(|(known, _)| known == key);
+        found.map(|(_, value)| *value).unwrap()
+    };
+    let whole = |a: f64, b: f64, c: f64| 4.0 / 3.0 * PI * a * b * c;
+    let assert_size = |name: &str, expected: f64| {
+        let size = built.size(name);
+        // The integrals of the faces are asked for a millionth.
+        assert!(
+            (size - expected).abs() < 1e-6 * expected,
+            "{name}: {size} {expected}"
+        );
+        assert_eq!(built.solids(name), 1, "{name}");
+    };
+    assert_eq!(contacts("whole"), ["channel-2"]);
+    assert_size("whole", whole(12.0, 6.0, 2.0));
+    // Across a bank, in mud and in the sand of both channels.
+    assert_eq!(contacts("bank"), ["background", "channel-1", "channel-2"]);
+    assert_size("bank", whole(15.0, 8.0, 3.0));
+    // Of channel-1 nothing is left around this one: channel-2 came and could not remove it.
+    let left = "channel-1/nodule-3";
+    assert_eq!(contacts(left), ["channel-2"]);
+    let [a, b, c] = ["a", "b", "c"].map(|axis| drawn(left, &format!("semi_axes.{axis}")));
+    assert_size(left, whole(a, b, c));
+    // One that reaches out of its channel ends at the channel's bank.
+    let cut = "channel-1/nodule-1";
+    let [a, b, c] = ["a", "b", "c"].map(|axis| drawn(cut, &format!("semi_axes.{axis}")));
+    assert!(
+        built.size(cut) < 0.95 * whole(a, b, c),
+        "{}",
+        built.size(cut)
+    );
+}
+
+#[test]
 fn the_quickstart_is_what_its_rules_say() {
     let built = Built::new("quickstart/quickstart.toml");
     built.assert_rule(|inside| oldest_first(inside, |_, _| true));

@@ -96,6 +96,33 @@ fn the_schema_refuses_the_commonest_slips() {
 }
 
 #[test]
+fn the_schema_tells_ellipsoids_from_channels() {
+    const NODULE: &str = include_str!("bad_models/nodule.toml");
+    let validator = jsonschema::validator_for(&schema()).unwrap();
+    assert!(validator.is_valid(&as_json(NODULE)));
+    for (find, replace) in [
+        ("semi_axes = [6, 4, 2]", ""),
+        ("semi_axes = [6, 4, 2]", "semi_axes = [6, 4]"),
+        ("semi_axes = [6, 4, 2]", "semi_axes = 6"),
+        (
+            "semi_axes = [6, 4, 2]",
+            "semi_axes = [6, 4, { uniform = 2 }]",
+        ),
+        ("center = [50, 50, -15]", "center = [50, 50]"),
+        ("center = [50, 50, -15]", "width = 50"),
+        ("kind = \"ellipsoid\"", "kind = \"channel\""),
+        ("plunge_deg = 10", "plunge = 10"),
+    ] {
+        assert!(NODULE.contains(find), "{find}");
+        let broken = NODULE.replacen(find, replace, 1);
+        assert!(
+            !validator.is_valid(&as_json(&broken)),
+            "admitted: {replace}"
+        );
+    }
+}
+
+#[test]
 fn every_key_of_the_schema_has_a_description() {
     fn walk(value: &Value, path: &str, bare: &mut Vec<String>) {
         match value {

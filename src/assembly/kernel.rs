@@ -6,10 +6,10 @@ pub use occt_bridge::Cancel;
 pub(crate) use occt_bridge::{
     BridgeError, Classifier, Curve, Edge, EdgeUse, Face, FaceIntegral, FaceMesh, FaceSample,
     MeshOptions, Pcurve, Position, Shape, Solids, StepDocument, StepNode, StepSchema, Surface,
-    Threads, Topology, compound, defects, face_integrals, face_samples, faces, set_threads,
+    Threads, Topology, compound, defects, face_integrals, face_samples, faces, set_threads, solid,
     solid_boxes, triangulate_solids, version, write_brep, write_step_assembly, write_step_shared,
 };
-use occt_bridge::{PartitionOptions, box_solid, partition, solid};
+use occt_bridge::{PartitionOptions, box_solid, partition};
 
 use super::labels::{self, LabelError, Side};
 use crate::model::plan::PlannedBody;

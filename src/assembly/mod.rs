@@ -5,6 +5,7 @@
 //! of a short ladder is tried; none changes any geometry inside the domain or draws anything anew. What
 //! cannot be proven is refused.
 
+mod closed;
 pub(crate) mod kernel;
 mod labels;
 pub mod measure;
@@ -316,7 +317,7 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
             Some(flush) if with_lids => shapes::trough(&flush.raised, block, remedy.cut, None),
             flush => {
                 let level = flush.as_ref().map(|flush| flush.level);
-                shapes::trough(&shell.body, block, remedy.cut, level)
+                shapes::shell(&shell.body, block, remedy.cut, level)
             }
         })
         .collect();

@@ -6,20 +6,29 @@
 
 use glam::{DVec2, DVec3};
 
+use super::closed;
 use super::kernel::{Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology};
-use crate::features::body::Trough;
+use crate::features::body::{Body, Role, Trough};
 use crate::nurbs;
 
 /// Topological tolerance of shells built from their own control nets (m).
 pub(crate) const EXACT: f64 = 1e-7;
 
-/// How a trough is cut for the kernel. None of it changes the shape inside the domain.
+/// How a body is cut for the kernel. None of it changes the shape inside the domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
-    /// Faces of base and top along the trajectory.
+    /// Faces of a trough's base and top along the trajectory, or of a closed surface around it.
     pub(crate) segments: usize,
     /// Sections kept beyond the last one whose span meets the domain.
     pub(crate) overshoot: usize,
+}
+
+/// The closed shell of a body, [`trough`] or [`closed::shell`].
+pub(crate) fn shell(body: &Body, block: [DVec3; 2], cut: Cut, level: Option<f64>) -> Topology {
+    match body {
+        Body::Trough(one) => trough(one, block, cut, level),
+        Body::Ellipsoid(ellipsoid) => closed::shell(ellipsoid.skin(), cut.segments),
+    }
 }
 
 /// The closed shell of a trough, its ends outside the box `low`–`high` left off.
@@ -36,8 +45,15 @@ pub(crate) fn trough(
     Builder::new(trough, &cuts, level).build()
 }
 
-/// The topology of one whole surface as a face, for files of surfaces.
-pub(crate) fn sheet(surface: &nurbs::Surface) -> Topology {
+/// The topology of one whole sheet as a face, for files of surfaces.
+pub(crate) fn sheet(role: Role, surface: &nurbs::Surface) -> Topology {
+    match role {
+        Role::Skin => closed::shell(surface, 1),
+        Role::Base | Role::Top | Role::Start | Role::End => open_sheet(surface),
+    }
+}
+
+fn open_sheet(surface: &nurbs::Surface) -> Topology {
     let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
     let corners = [(u0, v0), (u1, v0), (u1, v1), (u0, v1)];
     let curves = vec![
@@ -310,12 +326,12 @@ impl<'a> Builder<'a> {
 }
 
 /// An edge on the isoparametric line at this v: its own parameter is u.
-fn along_u(edge: usize, v: f64, reversed: bool) -> EdgeUse {
+pub(super) fn along_u(edge: usize, v: f64, reversed: bool) -> EdgeUse {
     line(edge, reversed, DVec2::new(0.0, v), DVec2::X)
 }
 
 /// An edge on the isoparametric line at this u: its own parameter is v.
-fn along_v(edge: usize, u: f64, reversed: bool) -> EdgeUse {
+pub(super) fn along_v(edge: usize, u: f64, reversed: bool) -> EdgeUse {
     line(edge, reversed, DVec2::new(u, 0.0), DVec2::Y)
 }
 
@@ -338,7 +354,7 @@ fn weights(weights: &[f64]) -> Option<Vec<f64>> {
         .then(|| weights.to_vec())
 }
 
-fn curve(curve: &nurbs::Curve) -> Curve {
+pub(super) fn curve(curve: &nurbs::Curve) -> Curve {
     Curve::BSpline {
         degree: curve.knots().degree(),
         knots: curve.knots().as_slice().to_vec(),
@@ -347,7 +363,7 @@ fn curve(curve: &nurbs::Curve) -> Curve {
     }
 }
 
-fn spline(surface: &nurbs::Surface) -> Surface {
+pub(super) fn spline(surface: &nurbs::Surface) -> Surface {
     Surface::BSpline {
         degree_u: surface.knots_u().degree(),
         degree_v: surface.knots_v().degree(),

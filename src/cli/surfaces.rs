@@ -58,7 +58,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     interrupt::unfinished_in(None);
     let count = loaded.realisation.instances.len();
     print::out(&format!(
-        "wrote {}: base and top of {count} bodies",
+        "wrote {}: the surfaces of {count} bodies",
         path.display()
     ));
     Ok(())

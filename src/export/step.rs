@@ -117,8 +117,8 @@ pub fn write_surfaces(
         let mut children = Vec::new();
         // The two ends only close the shell: they are no geological surfaces.
         for (role, surface) in sheets.iter().filter(|(role, _)| role.is_geological()) {
-            let shape =
-                kernel::faces(&shapes::sheet(surface)).map_err(|error| kernel_error(&error))?;
+            let topology = shapes::sheet(*role, surface);
+            let shape = kernel::faces(&topology).map_err(|error| kernel_error(&error))?;
             children.push(StepNode {
                 name: format!("{}/{}", rules.name, role.name()),
                 color: facies.map(color),

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::ellipsoid::Ellipsoid;
 use crate::nurbs::{Curve, KnotError, KnotVector, Surface, SurfaceError};
 
 /// What a sheet of a body is.
@@ -15,12 +16,14 @@ pub enum Role {
     Start,
     /// The vertical end at the trajectory's end.
     End,
+    /// The whole surface of a body without edges.
+    Skin,
 }
 
 impl Role {
     /// Whether the sheet is a surface of the rock, not only the end of a shell.
     pub fn is_geological(self) -> bool {
-        matches!(self, Self::Base | Self::Top)
+        matches!(self, Self::Base | Self::Top | Self::Skin)
     }
 
     /// The role's name in files and reports.
@@ -30,8 +33,53 @@ impl Role {
             Self::Top => "top",
             Self::Start => "start",
             Self::End => "end",
+            Self::Skin => "skin",
         }
     }
+}
+
+/// The closed shell of an instance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Body {
+    /// What flows erode: channels.
+    Trough(Trough),
+    /// What grows in place: concretions, nodules.
+    Ellipsoid(Ellipsoid),
+}
+
+impl Body {
+    /// All sheets of the closed shell.
+    pub fn sheets(&self) -> Result<Vec<(Role, Surface)>, SurfaceError> {
+        match self {
+            Self::Trough(trough) => trough.sheets(),
+            Self::Ellipsoid(ellipsoid) => Ok(vec![(Role::Skin, ellipsoid.skin().clone())]),
+        }
+    }
+
+    /// The corners of a box that holds the body: that of a trough's control net, and for an ellipsoid
+    /// the smallest one.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        match self {
+            Self::Trough(trough) => net_bounds(trough.base.net()),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
+        }
+    }
+
+    /// The elevation of its top, if it has one that is level to within a tolerance (m).
+    pub fn level_top(&self, tolerance: f64) -> Option<f64> {
+        match self {
+            Self::Trough(trough) => trough.level_top(tolerance),
+            Self::Ellipsoid(_) => None,
+        }
+    }
+}
+
+/// The box of a control net: by the convex hull property it holds the surface.
+fn net_bounds(net: &[DVec3]) -> (DVec3, DVec3) {
+    net.iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+            (low.min(*p), high.max(*p))
+        })
 }
 
 /// A trough: a base with u across and v along, closed by a top ruled between its two rims.
@@ -39,7 +87,7 @@ impl Role {
 /// The rims (u = first and last) are the *same* control points in both sheets, so that base and top
 /// share their edges exactly (\[J19\] Fig. 4: CP2 of the top is CP7 of the base). The two ends are
 /// vertical and flat: sections are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Trough {
     base: Surface,
     top: Surface,

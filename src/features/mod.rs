@@ -5,6 +5,7 @@
 
 pub mod body;
 pub mod channel;
+pub mod ellipsoid;
 pub mod extrusion;
 pub mod meander;
 pub mod profile;

@@ -148,6 +148,24 @@ pub(crate) struct ChannelFile {
     pub(crate) tolerance_fraction: Option<Field<f64>>,
 }
 
+/// An ellipsoid: a concretion or a cemented nodule, closed on all sides.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct EllipsoidFile {
+    /// Semi-axes [a, b, c] in metres: a along azimuth and plunge, b level and across it, c at right angles to both (vertical if the plunge is 0).
+    #[schemars(with = "[Quantity; 3]")]
+    pub(crate) semi_axes: Field<Any>,
+    /// Centre, [x, y, z]; if left out, uniform over the domain, or over what the parent has of it.
+    #[schemars(with = "Option<[Quantity; 3]>")]
+    pub(crate) center: Option<Field<Any>>,
+    /// Direction of the first axis in degrees, clockwise from north; 0 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) azimuth_deg: Option<Field<Any>>,
+    /// Angle of the first axis below the horizontal in degrees, between -90 and 90; 0 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) plunge_deg: Option<Field<Any>>,
+}
+
 /// What every trajectory has.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -42,8 +42,8 @@ pub use quantity::Quantity;
 pub use schema::schema;
 pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{
-    ChannelSpec, Domain, Facies, Feature, FeatureKind, Model, Note, Pick, Place, Property, Rgb,
-    SectionOrigin, Selector, TrajectorySpec,
+    ChannelSpec, Domain, EllipsoidSpec, Facies, Feature, FeatureKind, Model, Note, Pick, Place,
+    Property, Rgb, SectionOrigin, Selector, TrajectorySpec,
 };
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};

@@ -15,7 +15,7 @@ use glam::DVec3;
 use super::realisation::{Instance, Realisation};
 use super::rules::Rules;
 use super::spec::Domain;
-use crate::features::body::{Trough, TroughError};
+use crate::features::body::{Body, Trough, TroughError};
 
 /// Two level tops are the same within this fraction of the domain's size: far below any geology, far
 /// above rounding.
@@ -46,7 +46,7 @@ pub struct AssemblyPlan {
 #[derive(Clone, Debug)]
 pub struct PlannedShell {
     /// The shell as the model means it.
-    pub body: Trough,
+    pub body: Body,
     /// Set if its level top coincides with the domain's top or another body's.
     pub flush: Option<Flush>,
 }
@@ -116,11 +116,10 @@ impl AssemblyPlan {
             .filter(|instance| plan.reaches_domain(&instance.body, instance.volume))
             .collect();
         let tops = plan.tops(&reaching);
-        let mut known: Vec<(&Trough, Top, usize)> = Vec::new();
+        let mut known: Vec<(&Body, Top, usize)> = Vec::new();
         for (instance, &top) in reaching.iter().zip(&tops) {
-            let same = |(body, other, _): &&(&Trough, Top, usize)| {
-                *other == top && body.base() == instance.body.base()
-            };
+            let same =
+                |(body, other, _): &&(&Body, Top, usize)| *other == top && **body == instance.body;
             let shell = if let Some(&(_, _, shell)) = known.iter().find(same) {
                 plan.note(format!(
                     "{} has the shell of an older body",
@@ -146,9 +145,9 @@ impl AssemblyPlan {
         self.decisions.push(decision);
     }
 
-    /// Whether a body's net meets the inside of the domain.
-    fn reaches_domain(&mut self, body: &Trough, volume: usize) -> bool {
-        let (low, high) = net_bounds(body.base().net());
+    /// Whether a body's box meets the inside of the domain.
+    fn reaches_domain(&mut self, body: &Body, volume: usize) -> bool {
+        let (low, high) = body.bounds();
         let reaches = low.cmplt(self.high).all() && high.cmpgt(self.low).all();
         if !reaches {
             self.note(format!("{} lies outside the domain", self.names[volume]));
@@ -161,10 +160,7 @@ impl AssemblyPlan {
         let size = (self.high - self.low).max_element();
         let same = SAME_LEVEL * size;
         let levels: Vec<Option<f64>> = bodies.iter().map(|one| one.body.level_top(same)).collect();
-        let bounds: Vec<_> = bodies
-            .iter()
-            .map(|one| net_bounds(one.body.base().net()))
-            .collect();
+        let bounds: Vec<_> = bodies.iter().map(|one| one.body.bounds()).collect();
         let mut tops = vec![Top::Free; bodies.len()];
         for (i, level) in levels.iter().enumerate() {
             let Some(level) = *level else { continue };
@@ -205,10 +201,11 @@ impl AssemblyPlan {
             Top::OfDomain => Some(self.high.z),
             Top::UnderLid(level) => Some(level),
         };
-        let flush = match level {
-            None => None,
-            Some(level) => {
-                let raised = instance.body.raised().map_err(|source| PlanError {
+        let flush = match (level, &instance.body) {
+            // Only troughs have a level top.
+            (None, _) | (Some(_), Body::Ellipsoid(_)) => None,
+            (Some(level), Body::Trough(trough)) => {
+                let raised = trough.raised().map_err(|source| PlanError {
                     volume: self.names[instance.volume].clone(),
                     source,
                 })?;
@@ -231,14 +228,6 @@ impl AssemblyPlan {
             self.lids.len() - 1
         }))
     }
-}
-
-/// The box of a control net: by the convex hull property it holds the surface.
-pub fn net_bounds(net: &[DVec3]) -> (DVec3, DVec3) {
-    net.iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-            (low.min(*p), high.max(*p))
-        })
 }
 
 fn boxes_meet_in_plan(a: &(DVec3, DVec3), b: &(DVec3, DVec3)) -> bool {

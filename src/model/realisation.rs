@@ -5,15 +5,16 @@
 //! no surface (bends tighter than the half-width, necks, impossible meanders) are drawn again as a
 //! whole, never adjusted, and counted with their reasons.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::draws::{self, DrawnChannel, Rejected};
+use super::draws::{self, Drawn, Rejected, Surroundings};
 use super::rules::{Rules, VolumeRules};
 use super::selection::Selection;
-use super::spec::{Feature, FeatureKind, Model, Selector};
-use crate::features::body::Trough;
+use super::spec::{Feature, Model, Selector};
+use crate::features::body::Body;
+use crate::nurbs::enclosure::Enclosure;
 
 /// Most attempts at one instance before its distributions are called impossible.
 pub const MOST_ATTEMPTS: u32 = 1000;
@@ -26,7 +27,7 @@ pub struct Instance {
     /// Index of its feature in the model.
     pub feature: usize,
     /// Its closed shell.
-    pub body: Trough,
+    pub body: Body,
     /// What was drawn, by parameter.
     pub drawn: Vec<(String, f64)>,
     /// Attempts that were rejected before this one.
@@ -89,6 +90,10 @@ pub enum RealisationError {
 struct Planned {
     volume: usize,
     feature: usize,
+    /// The parent's volume.
+    parent: Option<usize>,
+    /// How many ancestors it has.
+    depth: usize,
     /// Numbers of the instance and its ancestors, outermost first: the key of its draws.
     number: String,
 }
@@ -101,14 +106,10 @@ impl Realisation {
         let Listing {
             volumes, planned, ..
         } = list;
-        let results: Vec<_> = planned
-            .par_iter()
-            .map(|one| realise(model, one, &volumes[one.volume].name))
-            .collect();
-        let mut instances = Vec::with_capacity(results.len());
+        let made = realise_all(model, &planned, &volumes)?;
+        let mut instances = Vec::with_capacity(made.len());
         let mut counts: BTreeMap<(usize, &'static str), u32> = BTreeMap::new();
-        for result in results {
-            let (instance, rejected) = result?;
+        for (instance, rejected) in made {
             for reason in rejected {
                 *counts.entry((instance.feature, reason)).or_default() += 1;
             }
@@ -190,6 +191,8 @@ impl<'a> Listing<'a> {
                 self.planned.push(Planned {
                     volume,
                     feature: index,
+                    parent: parent.map(|parent| parent.1),
+                    depth: numbers.matches('.').count(),
                     number: key.clone(),
                 });
                 self.instances(
@@ -216,14 +219,79 @@ impl<'a> Listing<'a> {
     }
 }
 
-/// Draws and builds one instance, with the reasons of its rejected attempts.
+/// An instance, with the reasons of its rejected attempts.
+type Made = (Instance, Vec<&'static str>);
+
+/// Draws and builds all instances, parents before their children.
+fn realise_all(
+    model: &Model,
+    planned: &[Planned],
+    volumes: &[VolumeRules],
+) -> Result<Vec<Made>, RealisationError> {
+    let deepest = planned.iter().map(|one| one.depth).max().unwrap_or(0);
+    let mut made: Vec<Option<Made>> = vec![None; planned.len()];
+    for depth in 0..=deepest {
+        let generation: Vec<&Planned> = planned.iter().filter(|one| one.depth == depth).collect();
+        let parents = parents(model, &generation, &made, volumes)?;
+        let generation: Vec<_> = generation
+            .into_par_iter()
+            .map(|one| {
+                let place = Surroundings {
+                    domain: &model.domain,
+                    parent: one.parent.and_then(|parent| parents.get(&parent)),
+                };
+                realise(model, one, &volumes[one.volume].name, place)
+            })
+            .collect();
+        for result in generation {
+            let one = result?;
+            let at = one.0.volume - 1;
+            made[at] = Some(one);
+        }
+    }
+    Ok(made.into_iter().flatten().collect())
+}
+
+/// The shells of those parents by which their children are placed.
+fn parents(
+    model: &Model,
+    children: &[&Planned],
+    made: &[Option<Made>],
+    volumes: &[VolumeRules],
+) -> Result<BTreeMap<usize, Enclosure>, RealisationError> {
+    let wanted: BTreeSet<usize> = children
+        .iter()
+        .filter(|one| draws::wants_parent(&model.features[one.feature].kind))
+        .filter_map(|one| one.parent)
+        .collect();
+    let bodies: Vec<&Instance> = wanted
+        .iter()
+        .filter_map(|volume| made[volume - 1].as_ref().map(|(parent, _)| parent))
+        .collect();
+    let shell = |parent: &Instance| {
+        let open = |reason: String| RealisationError::Impossible {
+            volume: volumes[parent.volume].name.clone(),
+            reason: format!("its shell is not closed, so no child can be placed in it: {reason}"),
+        };
+        let sheets = parent
+            .body
+            .sheets()
+            .map_err(|error| open(error.to_string()))?;
+        let shell = Enclosure::new(sheets.into_iter().map(|sheet| sheet.1).collect())
+            .map_err(|error| open(error.to_string()))?;
+        Ok((parent.volume, shell))
+    };
+    bodies.into_par_iter().map(shell).collect()
+}
+
+/// Draws and builds one instance.
 fn realise(
     model: &Model,
     planned: &Planned,
     name: &str,
-) -> Result<(Instance, Vec<&'static str>), RealisationError> {
+    place: Surroundings<'_>,
+) -> Result<Made, RealisationError> {
     let feature = &model.features[planned.feature];
-    let FeatureKind::Channel(spec) = &feature.kind;
     let mut reasons: Vec<&'static str> = Vec::new();
     let mut last = String::new();
     for attempt in 0..MOST_ATTEMPTS {
@@ -233,8 +301,8 @@ fn realise(
             instance: &planned.number,
             attempt,
         };
-        match draws::channel(spec, &model.domain, key) {
-            Ok(DrawnChannel { body, drawn, .. }) => {
+        match draws::body(&feature.kind, place, key) {
+            Ok(Drawn { body, drawn }) => {
                 let rejected = attempt;
                 let instance = Instance {
                     volume: planned.volume,

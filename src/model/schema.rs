@@ -6,8 +6,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
 use super::file::{
-    ChannelFile, FeatureFile, LineFile, ModelFile, ParametricFile, PointsFile, SineGeneratedFile,
-    TrajectoryFile,
+    ChannelFile, EllipsoidFile, FeatureFile, LineFile, ModelFile, ParametricFile, PointsFile,
+    SineGeneratedFile, TrajectoryFile,
 };
 use super::profile::Profile;
 use super::quantity::Quantity;
@@ -221,6 +221,17 @@ fn merged(kind: &str, description: &str, parts: &[Schema]) -> Value {
     })
 }
 
+/// One table for each kind, with what all have.
+fn variants<const N: usize>(common: &Schema, kinds: [(&str, Schema); N]) -> Vec<Value> {
+    kinds
+        .into_iter()
+        .map(|(kind, part)| {
+            let about = description(&part);
+            merged(kind, &about, &[common.clone(), part])
+        })
+        .collect()
+}
+
 fn description(schema: &Schema) -> String {
     let text = schema.get("description").and_then(Value::as_str);
     text.unwrap_or_default().to_owned()
@@ -228,12 +239,11 @@ fn description(schema: &Schema) -> String {
 
 pub(crate) fn features(generator: &mut SchemaGenerator) -> Schema {
     let common = FeatureFile::json_schema(generator);
-    let channel = ChannelFile::json_schema(generator);
-    let about = description(&channel);
-    json_schema!({
-        "type": "array",
-        "items": { "oneOf": [merged("channel", &about, &[common, channel])] },
-    })
+    let kinds = [
+        ("channel", ChannelFile::json_schema(generator)),
+        ("ellipsoid", EllipsoidFile::json_schema(generator)),
+    ];
+    json_schema!({ "type": "array", "items": { "oneOf": variants(&common, kinds) } })
 }
 
 pub(crate) fn trajectory(generator: &mut SchemaGenerator) -> Schema {
@@ -244,14 +254,7 @@ pub(crate) fn trajectory(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    let choices: Vec<Value> = kinds
-        .into_iter()
-        .map(|(kind, part)| {
-            let about = description(&part);
-            merged(kind, &about, &[common.clone(), part])
-        })
-        .collect();
-    json_schema!({ "oneOf": choices })
+    json_schema!({ "oneOf": variants(&common, kinds) })
 }
 
 pub(crate) fn origin(_: &mut SchemaGenerator) -> Schema {

@@ -113,19 +113,26 @@ pub struct Feature {
 
 /// What a feature is.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a model has one for each feature, not for each instance"
+)]
 pub enum FeatureKind {
     /// A channel along a trajectory.
     Channel(ChannelSpec),
+    /// A concretion or nodule.
+    Ellipsoid(EllipsoidSpec),
 }
 
 impl FeatureKind {
     /// The kinds' names, as the model file writes them.
-    pub const NAMES: [&'static str; 1] = ["channel"];
+    pub const NAMES: [&'static str; 2] = ["channel", "ellipsoid"];
 
     /// The kind's name, as the model file writes it.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Channel(_) => "channel",
+            Self::Ellipsoid(_) => "ellipsoid",
         }
     }
 }
@@ -175,6 +182,19 @@ pub struct ChannelSpec {
     pub angle_limit_deg: f64,
     /// How far the thalweg and the rims may lie from where they belong, as a fraction of the width.
     pub tolerance_fraction: f64,
+}
+
+/// An ellipsoid: a concretion, a cemented nodule.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EllipsoidSpec {
+    /// Semi-axes: along azimuth and plunge, level across it, at right angles to both.
+    pub semi_axes: [Quantity; 3],
+    /// The centre; uniform over what the parent has of the domain, or over the domain, if absent.
+    pub center: Option<[Quantity; 3]>,
+    /// Direction of the first axis in plan, clockwise from north, degrees.
+    pub azimuth_deg: Quantity,
+    /// Angle of the first axis below the horizontal, degrees.
+    pub plunge_deg: Quantity,
 }
 
 /// Which point of a section follows the trajectory.

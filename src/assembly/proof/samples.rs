@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use super::{Check, DOMAIN, ProofError, Prover, TOLERANCE};
 use crate::assembly::kernel::{Classifier, FaceSample, Position, Threads, face_samples};
 use crate::model::Stream;
-use crate::model::plan::net_bounds;
 use crate::model::rules::BACKGROUND;
 
 /// Points beside faces: both sides of at least this many samples.
@@ -34,7 +33,7 @@ impl Prover<'_> {
     pub(super) fn sampled_volumes(&self) -> Vec<Check> {
         let mut boxes = vec![(BACKGROUND, self.plan.low, self.plan.high, OVERALL)];
         for body in &self.plan.bodies {
-            let (low, high) = net_bounds(self.plan.shells[body.shell].body.base().net());
+            let (low, high) = self.plan.shells[body.shell].body.bounds();
             let (low, high) = (low.max(self.plan.low), high.min(self.plan.high));
             boxes.push((body.volume, low, high, PER_VOLUME));
         }

@@ -227,13 +227,14 @@ impl Checker<'_> {
         domain: Option<&Domain>,
     ) -> Option<Feature> {
         let kind = match draft.kind {
-            Some("channel") => {
-                let spec = self.channel(draft, domain);
-                self.reader.close(draft.node, &draft.name);
-                spec.map(FeatureKind::Channel)
-            }
+            Some("channel") => self.channel(draft, domain).map(FeatureKind::Channel),
+            Some("ellipsoid") => self.ellipsoid(draft, domain).map(FeatureKind::Ellipsoid),
             _ => None,
         };
+        // Without a kind nobody knows which keys are wrong.
+        if draft.kind.is_some() {
+            self.reader.close(draft.node, &draft.name);
+        }
         let named = match &draft.file.facies {
             Field::Missing => {
                 self.reader

@@ -1,6 +1,7 @@
 //! From text to a checked [`Model`], with every defect found on the way.
 
 mod channel;
+mod ellipsoid;
 mod family;
 mod feature;
 mod quantity;

@@ -51,6 +51,12 @@ pub(crate) const AZIMUTH: Limits = Limits {
     open: false,
     words: "must lie between -360 and 360 degrees, clockwise from north",
 };
+pub(crate) const PLUNGE: Limits = Limits {
+    low: -90.0,
+    high: 90.0,
+    open: false,
+    words: "must lie between -90 and 90 degrees, downwards from the horizontal",
+};
 
 impl Limits {
     fn too_low(&self, value: f64, reached: bool) -> bool {

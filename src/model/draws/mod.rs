@@ -1,18 +1,19 @@
 //! Draws: one attempt at one instance, from its quantities to its surfaces.
 
-use glam::DVec2;
+mod trajectory;
+
+use glam::{DVec2, DVec3};
 
 use super::distribution::Distribution;
-use super::expression::Expression;
 use super::profile::Profile as ProfileSpec;
 use super::quantity::Quantity;
-use super::spec::{ChannelSpec, Domain, SectionOrigin, TrajectorySpec};
+use super::spec::{ChannelSpec, Domain, EllipsoidSpec, FeatureKind, SectionOrigin};
 use super::stream::Stream;
-use crate::features::body::Trough;
+use crate::features::body::{Body, Trough};
 use crate::features::channel::{ChannelDesign, Origin};
-use crate::features::meander::SineGenerated;
+use crate::features::ellipsoid::{Ellipsoid, EllipsoidDesign};
 use crate::features::profile::Profile;
-use crate::features::trajectory::{Trajectory, TrajectoryError, azimuth_vector};
+use crate::nurbs::enclosure::Enclosure;
 
 /// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
 /// two widths are added. Ends well outside leave the domain's walls to be crossed cleanly.
@@ -31,11 +32,28 @@ pub(super) struct Key<'a> {
     pub(super) attempt: u32,
 }
 
-/// A channel that could be built.
+/// Where an instance is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surroundings<'a> {
+    /// The block that is modelled.
+    pub(super) domain: &'a Domain,
+    /// The shell of the parent, for kinds that ask for it ([`wants_parent`]).
+    pub(super) parent: Option<&'a Enclosure>,
+}
+
+/// Whether a kind is placed by its parent's shell.
+pub(super) fn wants_parent(kind: &FeatureKind) -> bool {
+    match kind {
+        FeatureKind::Channel(_) => false,
+        FeatureKind::Ellipsoid(spec) => spec.center.is_none(),
+    }
+}
+
+/// A body that could be built.
 #[derive(Clone, Debug)]
-pub(super) struct DrawnChannel {
+pub(super) struct Drawn {
     /// Its shell.
-    pub(super) body: Trough,
+    pub(super) body: Body,
     /// The numbers drawn, by parameter.
     pub(super) drawn: Vec<(String, f64)>,
 }
@@ -51,18 +69,22 @@ pub(super) struct Rejected {
     pub(super) drawn: usize,
 }
 
-/// Draws and builds a channel.
-pub(super) fn channel(
-    spec: &ChannelSpec,
-    domain: &Domain,
+/// Draws and builds a body.
+pub(super) fn body(
+    kind: &FeatureKind,
+    place: Surroundings<'_>,
     key: Key<'_>,
-) -> Result<DrawnChannel, Rejected> {
+) -> Result<Drawn, Rejected> {
     let mut draws = Draws {
         key,
         drawn: Vec::new(),
     };
-    match build(spec, domain, &mut draws) {
-        Ok(body) => Ok(DrawnChannel {
+    let made = match kind {
+        FeatureKind::Channel(spec) => channel(spec, place.domain, &mut draws).map(Body::Trough),
+        FeatureKind::Ellipsoid(spec) => ellipsoid(spec, place, &mut draws).map(Body::Ellipsoid),
+    };
+    match made {
+        Ok(body) => Ok(Drawn {
             body,
             drawn: draws.drawn,
         }),
@@ -173,7 +195,7 @@ impl Draws<'_> {
     }
 }
 
-fn build(spec: &ChannelSpec, domain: &Domain, draws: &mut Draws<'_>) -> Result<Trough, Reason> {
+fn channel(spec: &ChannelSpec, domain: &Domain, draws: &mut Draws<'_>) -> Result<Trough, Reason> {
     let width = draws.profile(&spec.width, "width")?;
     let depth = draws.profile(&spec.depth, "depth")?;
     let asymmetry = draws.profile(&spec.asymmetry, "asymmetry")?;
@@ -195,7 +217,7 @@ fn build(spec: &ChannelSpec, domain: &Domain, draws: &mut Draws<'_>) -> Result<T
         Profile::Constant(draws.uniform(lowest, domain.z[1], "top")?)
     };
     let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
-    let trajectory = trajectory(&spec.trajectory, domain, overshoot, draws)?;
+    let trajectory = trajectory::trajectory(&spec.trajectory, domain, overshoot, draws)?;
     let design = ChannelDesign {
         width,
         depth,
@@ -215,112 +237,69 @@ fn build(spec: &ChannelSpec, domain: &Domain, draws: &mut Draws<'_>) -> Result<T
         .map_err(|error| (error.reason(), error.to_string()))
 }
 
+fn ellipsoid(
+    spec: &EllipsoidSpec,
+    place: Surroundings<'_>,
+    draws: &mut Draws<'_>,
+) -> Result<Ellipsoid, Reason> {
+    let mut semi_axes = [0.0; 3];
+    for ((value, quantity), name) in semi_axes
+        .iter_mut()
+        .zip(&spec.semi_axes)
+        .zip(["a", "b", "c"])
+    {
+        *value = draws.quantity(quantity, &format!("semi_axes.{name}"))?;
+    }
+    let center = match &spec.center {
+        Some([x, y, z]) => DVec3::new(
+            draws.quantity(x, "center.x")?,
+            draws.quantity(y, "center.y")?,
+            draws.quantity(z, "center.z")?,
+        ),
+        None => place.center(draws)?,
+    };
+    let design = EllipsoidDesign {
+        center,
+        semi_axes,
+        azimuth: draws
+            .quantity(&spec.azimuth_deg, "azimuth_deg")?
+            .to_radians(),
+        plunge: draws.quantity(&spec.plunge_deg, "plunge_deg")?.to_radians(),
+    };
+    design
+        .build()
+        .map_err(|error| (error.reason(), error.to_string()))
+}
+
+impl Surroundings<'_> {
+    /// A point that is uniform over the domain, or over what the parent has of it.
+    fn center(&self, draws: &mut Draws<'_>) -> Result<DVec3, Reason> {
+        let Domain { x, y, z, .. } = *self.domain;
+        let corner = |i: usize| DVec3::new(x[i], y[i], z[i]);
+        let (mut low, mut high) = (corner(0), corner(1));
+        if let Some(parent) = self.parent {
+            let (least, most) = parent.bounds();
+            (low, high) = (low.max(least), high.min(most));
+            // A parent outside the domain has its children there too.
+            if !low.cmplt(high).all() {
+                (low, high) = (least, most);
+            }
+        }
+        let center = DVec3::new(
+            draws.uniform(low.x, high.x, "center.x")?,
+            draws.uniform(low.y, high.y, "center.y")?,
+            draws.uniform(low.z, high.z, "center.z")?,
+        );
+        match self.parent {
+            Some(parent) if !parent.contains(center) => Err((
+                "centre outside the parent",
+                format!("the centre at {center:.2} is outside the parent; give it a `center`"),
+            )),
+            _ => Ok(center),
+        }
+    }
+}
+
 fn diagonal(domain: &Domain) -> f64 {
     (domain.x[1] - domain.x[0]).hypot(domain.y[1] - domain.y[0])
-}
-
-fn trajectory(
-    spec: &TrajectorySpec,
-    domain: &Domain,
-    overshoot: f64,
-    draws: &mut Draws<'_>,
-) -> Result<Trajectory, Reason> {
-    let made = match spec {
-        TrajectorySpec::Line { from, to } => {
-            let from = draws.point(from, "trajectory.from")?;
-            let to = draws.point(to, "trajectory.to")?;
-            Trajectory::line(from, to)
-        }
-        TrajectorySpec::Heading {
-            azimuth_deg,
-            center,
-            length,
-        } => {
-            let azimuth = draws
-                .quantity(azimuth_deg, "trajectory.azimuth_deg")?
-                .to_radians();
-            let center = draws.center(center.as_ref(), domain)?;
-            let extent = extent(length.as_ref(), domain, center, azimuth, overshoot, draws)?;
-            let axis = azimuth_vector(azimuth);
-            Trajectory::line(center + axis * extent[0], center + axis * extent[1])
-        }
-        TrajectorySpec::Points {
-            points,
-            parametrization,
-            degree,
-        } => {
-            let points: Vec<DVec2> = points.iter().map(|p| DVec2::from_array(*p)).collect();
-            Trajectory::through(&points, *degree, *parametrization)
-        }
-        TrajectorySpec::SineGenerated {
-            amplitude,
-            wavelength,
-            azimuth_deg,
-            center,
-            phase,
-            length,
-        } => {
-            let amplitude = draws.quantity(amplitude, "trajectory.amplitude")?;
-            let wavelength = draws.quantity(wavelength, "trajectory.wavelength")?;
-            let azimuth = draws
-                .quantity(azimuth_deg, "trajectory.azimuth_deg")?
-                .to_radians();
-            let center = draws.center(center.as_ref(), domain)?;
-            let phase = match phase {
-                Some(phase) => draws.quantity(phase, "trajectory.phase")?,
-                None => draws.uniform(0.0, 1.0, "trajectory.phase")?,
-            };
-            let extent = extent(length.as_ref(), domain, center, azimuth, overshoot, draws)?;
-            Trajectory::sine_generated(&SineGenerated {
-                amplitude,
-                wavelength,
-                azimuth,
-                center,
-                phase,
-                extent,
-            })
-        }
-        TrajectorySpec::Parametric { x, y, range } => {
-            let at = |t: f64| {
-                let value = |expression: &Expression| expression.eval(t).unwrap_or(f64::NAN);
-                DVec2::new(value(x), value(y))
-            };
-            Trajectory::parametric(&at, *range)
-        }
-    };
-    made.map_err(|error| (reason(&error), error.to_string()))
-}
-
-fn reason(error: &TrajectoryError) -> &'static str {
-    match error {
-        TrajectoryError::NoMeander { .. } => "amplitude too large for the wavelength",
-        TrajectoryError::TooManyMeanders { .. } => "wavelength too short for the extent",
-        _ => "impossible trajectory",
-    }
-}
-
-/// From and to along an axis: the given length about the centre, or all across the domain and beyond.
-fn extent(
-    length: Option<&Quantity>,
-    domain: &Domain,
-    center: DVec2,
-    azimuth: f64,
-    overshoot: f64,
-    draws: &mut Draws<'_>,
-) -> Result<[f64; 2], Reason> {
-    if let Some(length) = length {
-        let length = draws.quantity(length, "trajectory.length")?;
-        return Ok([-length / 2.0, length / 2.0]);
-    }
-    let axis = azimuth_vector(azimuth);
-    let corners = domain
-        .x
-        .iter()
-        .flat_map(|&x| domain.y.iter().map(move |&y| DVec2::new(x, y)));
-    let (low, high) = corners
-        .map(|corner| (corner - center).dot(axis))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), along| {
-            (low.min(along), high.max(along))
-        });
-    Ok([low - overshoot, high + overshoot])
 }

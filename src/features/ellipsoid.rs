@@ -1,0 +1,319 @@
+//! Ellipsoids: concretions and cemented nodules as exact rational surfaces (\[J19\] §2.3, §2.4.1).
+//!
+//! One biquadratic surface, 9 × 5 control points: full circles in u (four quarters, closed by a seam
+//! at u = 0 = 1), half circles in v from the lower pole to the upper one, stretched by the semi-axes
+//! (PT97 §8.5). The weights are products of 1 and √½. Both v-ends are single points. The normal
+//! `S_u × S_v` points **outwards**.
+
+use glam::DVec3;
+
+use super::trajectory::azimuth_vector;
+use crate::nurbs::{KnotError, KnotVector, Surface, SurfaceError};
+
+const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Control points of the unit circle with their weights, anticlockwise.
+const CIRCLE: [(f64, f64, f64); 9] = [
+    (1.0, 0.0, 1.0),
+    (1.0, 1.0, HALF),
+    (0.0, 1.0, 1.0),
+    (-1.0, 1.0, HALF),
+    (-1.0, 0.0, 1.0),
+    (-1.0, -1.0, HALF),
+    (0.0, -1.0, 1.0),
+    (1.0, -1.0, HALF),
+    (1.0, 0.0, 1.0),
+];
+/// Knots of the circle: a quarter each.
+const AROUND: [f64; 12] = [
+    0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
+];
+/// Control points of the half circle: distance from the axis, height, weight.
+const MERIDIAN: [(f64, f64, f64); 5] = [
+    (0.0, -1.0, 1.0),
+    (1.0, -1.0, HALF),
+    (1.0, 0.0, 1.0),
+    (1.0, 1.0, HALF),
+    (0.0, 1.0, 1.0),
+];
+/// Knots of the half circle.
+const UP: [f64; 8] = [0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0];
+
+/// An ellipsoid's parameters, sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipsoidDesign {
+    /// Its centre.
+    pub center: DVec3,
+    /// Semi-axes (m): the first along azimuth and plunge, the second level and across it, the third at
+    /// right angles to both (vertical if the plunge is 0).
+    pub semi_axes: [f64; 3],
+    /// Direction of the first axis in plan, clockwise from north (rad).
+    pub azimuth: f64,
+    /// Angle of the first axis below the horizontal (rad).
+    pub plunge: f64,
+}
+
+/// A closed surface without edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ellipsoid {
+    skin: Surface,
+    center: DVec3,
+    /// The semi-axes as vectors.
+    axes: [DVec3; 3],
+}
+
+/// Why numbers make no ellipsoid.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EllipsoidError {
+    /// A semi-axis has no length.
+    #[error("semi-axis {axis} is {value} m; semi-axes must be above 0")]
+    SemiAxis {
+        /// Which, from 1.
+        axis: usize,
+        /// Its length.
+        value: f64,
+    },
+    /// Its knots are wrong.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// Its control points are wrong: the centre or an angle is not finite.
+    #[error("the ellipsoid has no surface: {0}")]
+    Surface(#[from] SurfaceError),
+}
+
+impl EllipsoidError {
+    /// The reason in two or three words, for counts of rejected draws.
+    pub fn reason(&self) -> &'static str {
+        match self {
+            Self::SemiAxis { .. } => "semi-axis not above 0",
+            Self::Knots(_) | Self::Surface(_) => "impossible ellipsoid",
+        }
+    }
+}
+
+impl EllipsoidDesign {
+    /// The ellipsoid.
+    pub fn build(&self) -> Result<Ellipsoid, EllipsoidError> {
+        let bad = |value: &f64| !(*value > 0.0 && value.is_finite());
+        if let Some(at) = self.semi_axes.iter().position(bad) {
+            return Err(EllipsoidError::SemiAxis {
+                axis: at + 1,
+                value: self.semi_axes[at],
+            });
+        }
+        let axes = self.axes();
+        let mut net = Vec::with_capacity(CIRCLE.len() * MERIDIAN.len());
+        let mut weights = Vec::with_capacity(net.capacity());
+        for (x, y, around) in CIRCLE {
+            for (reach, z, up) in MERIDIAN {
+                let point = axes[0] * (reach * x) + axes[1] * (reach * y) + axes[2] * z;
+                net.push(self.center + point);
+                weights.push(around * up);
+            }
+        }
+        let (u, v) = (
+            KnotVector::new(2, AROUND.to_vec())?,
+            KnotVector::new(2, UP.to_vec())?,
+        );
+        Ok(Ellipsoid {
+            skin: Surface::rational(u, v, net, weights)?,
+            center: self.center,
+            axes,
+        })
+    }
+
+    /// The semi-axes as vectors, right-handed: along azimuth and plunge, level to the left of that, up.
+    fn axes(&self) -> [DVec3; 3] {
+        let [a, b, c] = self.semi_axes;
+        let heading = azimuth_vector(self.azimuth);
+        let (sin, cos) = self.plunge.sin_cos();
+        let first = (heading * cos).extend(-sin);
+        let left = heading.perp().extend(0.0);
+        [first * a, left * b, first.cross(left) * c]
+    }
+}
+
+impl Ellipsoid {
+    /// Its surface: u around (anticlockwise seen from its upper pole) from the first axis, v from the
+    /// lower pole to the upper one, the normal outwards.
+    pub fn skin(&self) -> &Surface {
+        &self.skin
+    }
+
+    /// Its centre.
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
+    /// Its semi-axes as vectors: first, second (to the left of it) and third (upwards).
+    pub fn axes(&self) -> [DVec3; 3] {
+        self.axes
+    }
+
+    /// The corners of its box: the half-extent along a coordinate is the norm of the semi-axes' shares.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let squares: DVec3 = self.axes.iter().map(|axis| axis * axis).sum();
+        let reach = DVec3::new(squares.x.sqrt(), squares.y.sqrt(), squares.z.sqrt());
+        (self.center - reach, self.center + reach)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use std::f64::consts::PI;
+
+    use glam::DVec3;
+
+    use super::{Ellipsoid, EllipsoidDesign, EllipsoidError};
+    use crate::nurbs::enclosure::Enclosure;
+
+    /// Axes of 30, 12 and 5 m, the first towards N 50° E and 20° down.
+    const TILTED: EllipsoidDesign = EllipsoidDesign {
+        center: DVec3::new(431.0, -652.0, -20.0),
+        semi_axes: [30.0, 12.0, 5.0],
+        azimuth: 50.0 * PI / 180.0,
+        plunge: 20.0 * PI / 180.0,
+    };
+
+    fn grid(n: usize) -> impl Iterator<Item = (f64, f64)> {
+        let steps = move || (0..=n).map(move |i| i as f64 / n as f64);
+        steps().flat_map(move |u| steps().map(move |v| (u, v)))
+    }
+
+    /// (first, second, third) / semi-axes, with the rotation written out by its angles.
+    fn coordinates(design: &EllipsoidDesign, p: DVec3) -> [f64; 3] {
+        let d = p - design.center;
+        let (sa, ca) = design.azimuth.sin_cos();
+        let (sp, cp) = design.plunge.sin_cos();
+        let ahead = d.x * sa + d.y * ca;
+        let left = d.y * sa - d.x * ca;
+        let [a, b, c] = design.semi_axes;
+        [
+            (ahead * cp - d.z * sp) / a,
+            left / b,
+            (ahead * sp + d.z * cp) / c,
+        ]
+    }
+
+    #[test]
+    fn every_point_of_the_surface_satisfies_the_ellipsoids_equation() {
+        let ellipsoid = TILTED.build().unwrap();
+        for (u, v) in grid(97) {
+            let [x, y, z] = coordinates(&TILTED, ellipsoid.skin().point(u, v));
+            // Relative to the centre's distance from the origin: 780 m, 156 times the least semi-axis.
+            let miss = x * x + y * y + z * z - 1.0;
+            assert!(miss.abs() < 1e-12, "{u} {v}: {miss:e}");
+        }
+    }
+
+    #[test]
+    fn the_first_axis_points_where_azimuth_and_plunge_say() {
+        let ellipsoid = TILTED.build().unwrap();
+        let tip = ellipsoid.skin().point(0.0, 0.5) - TILTED.center;
+        // 30 m, 20° down, N 50° E.
+        let level = 30.0 * 20_f64.to_radians().cos();
+        let expected = DVec3::new(
+            level * 50_f64.to_radians().sin(),
+            level * 50_f64.to_radians().cos(),
+            -30.0 * 20_f64.to_radians().sin(),
+        );
+        assert!(tip.distance(expected) < 1e-12, "{tip}");
+        assert!((ellipsoid.axes()[0] - expected).length() < 1e-12);
+        let side = ellipsoid.skin().point(0.25, 0.5) - TILTED.center;
+        assert!(side.z.abs() < 1e-12 && (side.length() - 12.0).abs() < 1e-12);
+        let top = ellipsoid.skin().point(0.3, 1.0) - TILTED.center;
+        assert!(top.z > 0.0 && (top.length() - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_normal_is_the_gradient_of_the_equation_and_points_outwards() {
+        let ellipsoid = TILTED.build().unwrap();
+        let [a, b, c] = ellipsoid.axes();
+        for (u, v) in grid(24) {
+            let d = ellipsoid.skin().point(u, v) - TILTED.center;
+            let gradient: DVec3 = [a, b, c]
+                .iter()
+                .map(|axis| *axis * d.dot(*axis) / axis.length_squared().powi(2))
+                .sum();
+            let normal = ellipsoid.skin().normal(u, v).unwrap();
+            assert!(
+                normal.distance(gradient.normalize()) < 1e-9,
+                "{u} {v}: {normal} {gradient}"
+            );
+        }
+    }
+
+    /// The flux of (p − centre)/3 through the surface, by Gauss's rule of 8 points on n pieces each way.
+    fn volume(ellipsoid: &Ellipsoid, pieces: usize) -> f64 {
+        const GAUSS: [(f64, f64); 4] = [
+            (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+            (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+            (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+            (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+        ];
+        let nodes: Vec<(f64, f64)> = (0..pieces)
+            .flat_map(|k| {
+                let width = 1.0 / pieces as f64;
+                let at = move |x: f64| width * (k as f64 + 0.5 + 0.5 * x);
+                GAUSS
+                    .into_iter()
+                    .flat_map(move |(x, w)| [(at(x), 0.5 * width * w), (at(-x), 0.5 * width * w)])
+            })
+            .collect();
+        let mut sum = 0.0;
+        for (u, wu) in &nodes {
+            for (v, wv) in &nodes {
+                let d = ellipsoid.skin().derivatives(*u, *v, 1);
+                let normal = d[1][0].cross(d[0][1]);
+                sum += wu * wv * (d[0][0] - ellipsoid.center()).dot(normal) / 3.0;
+            }
+        }
+        sum
+    }
+
+    #[test]
+    fn the_volume_is_four_thirds_pi_a_b_c() {
+        let ellipsoid = TILTED.build().unwrap();
+        let expected = 4.0 / 3.0 * PI * 30.0 * 12.0 * 5.0;
+        let found = volume(&ellipsoid, 4);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
+
+    #[test]
+    fn the_shell_holds_the_points_that_the_equation_holds() {
+        let ellipsoid = TILTED.build().unwrap();
+        let shell = Enclosure::new(vec![ellipsoid.skin().clone()]).unwrap();
+        let (low, high) = ellipsoid.bounds();
+        let n = 24;
+        for i in 0..n * n * n {
+            // Beyond the box too, and never on the surface.
+            let part = |k: usize| (k as f64 + 0.487) / n as f64 * 1.2 - 0.1;
+            let unit = DVec3::new(part(i % n), part(i / n % n), part(i / n / n));
+            let p = low + (high - low) * unit;
+            let [x, y, z] = coordinates(&TILTED, p);
+            assert_eq!(shell.contains(p), x * x + y * y + z * z < 1.0, "{p}");
+        }
+    }
+
+    #[test]
+    fn the_box_touches_the_surface_on_all_sides() {
+        let ellipsoid = TILTED.build().unwrap();
+        let (low, high) = ellipsoid.bounds();
+        let (least, greatest) = ellipsoid.skin().bounds();
+        assert!((low - least).abs().max_element() < 1e-6, "{low} {least}");
+        assert!((high - greatest).abs().max_element() < 1e-6);
+    }
+
+    #[test]
+    fn a_semi_axis_without_length_makes_no_ellipsoid() {
+        for value in [0.0, -3.0, f64::NAN, f64::INFINITY] {
+            let design = EllipsoidDesign {
+                semi_axes: [3.0, value, 1.0],
+                ..TILTED
+            };
+            let error = design.build().unwrap_err();
+            assert!(matches!(error, EllipsoidError::SemiAxis { axis: 2, .. }));
+            assert_eq!(error.reason(), "semi-axis not above 0");
+        }
+    }
+}
