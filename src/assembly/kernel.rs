@@ -4,14 +4,14 @@ use serde::{Deserialize, Serialize};
 
 pub use occt_bridge::Cancel;
 pub(crate) use occt_bridge::{
-    BridgeError, Classifier, Curve, Edge, EdgeUse, Face, FaceIntegral, FaceMesh, FaceSample,
-    MeshOptions, Pcurve, Position, Shape, Solids, StepDocument, StepNode, StepSchema, Surface,
-    Threads, Topology, compound, defects, face_integrals, face_samples, faces, set_threads, solid,
+    BridgeError, Classifier, Curve, Edge, EdgeUse, Face, FaceIntegral, FaceMesh, FaceOrigin, FaceSample,
+    MeshOptions, OnSurface, Pcurve, Position, Shape, Solids, StepDocument, StepNode, StepSchema, Surface,
+    TableEdge, TableFace, TableSolid, TableVertex, Tables, Threads, Topology, compound, defects, face_integrals, face_samples, faces, set_threads, solid,
     solid_boxes, triangulate_solids, version, write_brep, write_step_assembly, write_step_shared,
 };
 use occt_bridge::{PartitionOptions, box_solid, partition};
 
-use super::labels::{self, LabelError, Side};
+use super::labels::{self, Holders, LabelError, Side};
 use crate::model::plan::PlannedBody;
 use crate::model::rules::Rules;
 
@@ -82,10 +82,7 @@ impl From<LabelError> for FuseError {
     }
 }
 
-/// The arguments of the fuse come in this order: domain, lids, shells.
-const DOMAIN: usize = 0;
-
-/// Partitions everything, labels the cells by the rules and merges those of one owner.
+/// Partitions everything (arguments: domain, lids, shells, in this order), labels the cells by the rules and merges those of one owner.
 pub(crate) fn fuse(
     job: &FuseJob,
     cancel: &Cancel,
@@ -126,7 +123,11 @@ pub(crate) fn fuse(
             return Err(LabelError::SecondOpinion { cell, argument }.into());
         }
     }
-    let owners: Vec<Option<usize>> = inside.iter().map(|sides| owner(job, sides)).collect();
+    let holders = Holders::new(&job.bodies, job.rules.len(), job.above_lids.len());
+    let owners: Vec<Option<usize>> = inside
+        .iter()
+        .map(|sides| holders.owner(&job.rules, sides))
+        .collect();
     let solids = partition.merge(&owners)?;
     let first_shell = 1 + job.above_lids.len();
     let crossing_shells = partition
@@ -142,20 +143,6 @@ pub(crate) fn fuse(
         alerts: partition.alerts().to_vec(),
     };
     Ok((solids, report))
-}
-
-/// The volume that holds a cell; `None` outside the domain.
-fn owner(job: &FuseJob, inside: &[bool]) -> Option<usize> {
-    let (lids, shells) = inside[DOMAIN + 1..].split_at(job.above_lids.len());
-    let holds = |volume: usize| {
-        job.bodies
-            .binary_search_by_key(&volume, |body| body.volume)
-            .is_ok_and(|at| {
-                let body = &job.bodies[at];
-                shells[body.shell] && !body.lid.is_some_and(|lid| lids[lid])
-            })
-    };
-    inside[DOMAIN].then(|| job.rules.owner(holds))
 }
 
 fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {

@@ -5,6 +5,40 @@
 //! its own faces and from its neighbours', without asking a kernel where a point lies. Whatever
 //! contradicts itself is a fault of the partition and is reported, never repaired.
 
+use crate::model::plan::PlannedBody;
+use crate::model::rules::Rules;
+
+/// Which volumes' insides hold a place, told from the sides of regions: domain, lids, shells.
+#[derive(Clone, Debug)]
+pub(crate) struct Holders {
+    /// By volume: shell and lid, if it takes part.
+    bodies: Vec<Option<(usize, Option<usize>)>>,
+    first_shell: usize,
+}
+
+impl Holders {
+    pub(crate) fn new(bodies: &[PlannedBody], volumes: usize, lids: usize) -> Self {
+        let mut of_volume = vec![None; volumes];
+        for body in bodies {
+            of_volume[body.volume] = Some((body.shell, body.lid));
+        }
+        Self {
+            bodies: of_volume,
+            first_shell: 1 + lids,
+        }
+    }
+
+    /// The volume that holds a place; `None` outside the domain.
+    pub(crate) fn owner(&self, rules: &Rules, inside: &[bool]) -> Option<usize> {
+        let holds = |volume: usize| {
+            self.bodies[volume].is_some_and(|(shell, lid)| {
+                inside[self.first_shell + shell] && !lid.is_some_and(|lid| inside[1 + lid])
+            })
+        };
+        inside[0].then(|| rules.owner(holds))
+    }
+}
+
 /// A face of the partition, seen from the cells.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Side {

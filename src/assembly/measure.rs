@@ -50,8 +50,18 @@ pub struct Measured {
     pub edges: usize,
 }
 
+/// What is counted, not integrated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Counts {
+    /// Edges.
+    pub(super) edges: usize,
+    /// Largest tolerance of any face, edge or vertex (m).
+    pub(super) tolerance: f64,
+}
+
 impl Measured {
-    pub(super) fn new(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
+    /// Measures solids that the kernel made, by the kernel's integrals.
+    pub(super) fn of_solids(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
         let middle = (plan.low + plan.high) / 2.0;
         let round = |shell: &PlannedShell| matches!(shell.body, Body::Ellipsoid(_));
         let eps = if plan.shells.iter().any(round) {
@@ -60,9 +70,32 @@ impl Measured {
             EPS
         };
         let integrals = face_integrals(solids, eps, middle.to_array(), Threads::All)?;
+        let boxes: Vec<(DVec3, DVec3)> = solid_boxes(solids, Threads::All)?
+            .iter()
+            .map(|one| (DVec3::from_array(one.min), DVec3::from_array(one.max)))
+            .collect();
+        let tolerance = integrals
+            .iter()
+            .map(|face| face.tolerance)
+            .fold(0.0, f64::max);
+        let counts = Counts {
+            edges: solids.edge_count()?,
+            tolerance,
+        };
+        Ok(Self::new(solids, &integrals, &boxes, counts, plan))
+    }
+
+    /// Puts together what is known of every face and solid.
+    pub(super) fn new(
+        solids: &Solids,
+        integrals: &[FaceIntegral],
+        boxes: &[(DVec3, DVec3)],
+        counts: Counts,
+        plan: &AssemblyPlan,
+    ) -> Self {
         let mut contacts = BTreeMap::new();
         let mut outer = BTreeMap::new();
-        for (face, integral) in solids.faces().iter().zip(&integrals) {
+        for (face, integral) in solids.faces().iter().zip(integrals) {
             let owner = |solid: usize| solids.solids()[solid].owner;
             match face.solids[..] {
                 [one] => *outer.entry(owner(one)).or_insert(0.0) += integral.area,
@@ -74,18 +107,15 @@ impl Measured {
                 _ => {}
             }
         }
-        Ok(Self {
-            pieces: pieces(solids, &integrals, plan)?,
+        Self {
+            pieces: pieces(solids, integrals, boxes, plan),
             contacts,
             outer,
-            tolerance: integrals
-                .iter()
-                .map(|face| face.tolerance)
-                .fold(0.0, f64::max),
+            tolerance: counts.tolerance,
             area: integrals.iter().map(|face| face.area).sum(),
             faces: integrals.len(),
-            edges: solids.edge_count()?,
-        })
+            edges: counts.edges,
+        }
     }
 
     /// The solids of a volume, largest first.
@@ -107,11 +137,11 @@ impl Measured {
 fn pieces(
     solids: &Solids,
     integrals: &[FaceIntegral],
+    boxes: &[(DVec3, DVec3)],
     plan: &AssemblyPlan,
-) -> Result<Vec<Piece>, BridgeError> {
+) -> Vec<Piece> {
     let mut pieces = Vec::with_capacity(solids.solids().len());
-    let boxes = solid_boxes(solids, Threads::All)?;
-    for (index, (solid, found)) in solids.solids().iter().zip(&boxes).enumerate() {
+    for (index, (solid, found)) in solids.solids().iter().zip(boxes).enumerate() {
         let signed = |(face, reversed): &(usize, bool)| {
             let flux = integrals[*face].flux;
             if *reversed { -flux } else { flux }
@@ -121,10 +151,7 @@ fn pieces(
             volume: solid.owner,
             solid: index,
             size: solid.faces.iter().map(signed).sum(),
-            bounds: (
-                DVec3::from_array(found.min).max(limits.0),
-                DVec3::from_array(found.max).min(limits.1),
-            ),
+            bounds: (found.0.max(limits.0), found.1.min(limits.1)),
         });
     }
     pieces.sort_by(|a, b| {
@@ -138,7 +165,7 @@ fn pieces(
                     .unwrap_or(std::cmp::Ordering::Equal)
             })
     });
-    Ok(pieces)
+    pieces
 }
 
 /// Where a volume can be: within the domain, and within its body's box. The kernel's boxes

@@ -1,14 +1,17 @@
 //! Assembly: from a plan to watertight solids, with the proof that they are right.
 //!
-//! The general fuse is given topology that it handles well, its cells are labelled by the rules, and
-//! what comes out is compared with what the model means ([`proof`]). If the proof fails the next remedy
-//! of a short ladder is tried; none changes any geometry inside the domain or draws anything anew. What
-//! cannot be proven is refused.
+//! Two engines make the same solids: the partition kernel ([`crate::partition`]), which is fast and knows
+//! when it is in doubt, and the general fuse of the CAD kernel, which is given topology that it handles well
+//! and whose cells are labelled by the same rules. What comes out is compared with what the model means
+//! ([`proof`]). If the proof fails the next remedy is tried; none changes any geometry inside the domain or
+//! draws anything anew. What cannot be proven is refused.
 
 mod closed;
+mod fused;
 pub(crate) mod kernel;
 mod labels;
 pub mod measure;
+mod partitioned;
 pub mod proof;
 pub(crate) mod shapes;
 pub mod worker;
@@ -16,19 +19,41 @@ pub mod worker;
 use std::time::{Duration, Instant};
 
 use crate::model::owner::Owners;
-use crate::model::plan::{AssemblyPlan, PlannedBody};
+use crate::model::plan::AssemblyPlan;
 pub use kernel::Cancel;
-use kernel::{FuseError, FuseJob, FuseReport};
 use measure::Measured;
-use proof::Proof;
-use shapes::Cut;
+use partitioned::Partitioned;
+use proof::{Evidence, Proof};
 use worker::WorkerError;
+
+/// What makes the solids.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// The partition; where it is in doubt or not proven, the general fuse.
+    #[default]
+    Auto,
+    /// The partition kernel alone.
+    Partition,
+    /// The CAD kernel's general fuse alone.
+    Occt,
+}
+
+impl Engine {
+    /// Its name in reports and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Partition => "partition",
+            Self::Occt => "occt",
+        }
+    }
+}
 
 /// What is going on, for progress bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// The general fuse.
-    Fuse,
+    /// Making the solids.
+    Assemble,
     /// Integrating faces, checking validity, comparing with the point evaluator.
     Prove,
 }
@@ -36,6 +61,8 @@ pub enum Stage {
 /// How to assemble.
 #[derive(Clone, Debug)]
 pub struct Options {
+    /// What makes the solids.
+    pub engine: Engine,
     /// The child process that runs the fuse; `None` runs it in this process, at its mercy.
     pub child: Option<worker::Child>,
     /// Worker threads; 0 = as many as the machine has.
@@ -46,55 +73,11 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// One rung of the ladder.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Remedy {
-    name: &'static str,
-    cut: Cut,
-    tops: Tops,
-    fuzzy: Option<f64>,
-}
-
-/// Four segments and ends well outside are what most belts need; what follows avoids the grazing
-/// contacts that a failed attempt ran into by putting edges elsewhere.
-const LADDER: [Remedy; 5] = [
-    remedy("none", 4, 2, Tops::Planes, None),
-    remedy("trajectories end elsewhere", 4, 4, Tops::Planes, None),
-    remedy("more segments", 8, 3, Tops::Lids, None),
-    remedy("whole surfaces", 1, 2, Tops::Lids, None),
-    remedy("fuzzy contacts of 1 µm", 6, 5, Tops::Planes, Some(1e-6)),
-];
-
-/// How the kernel is given level tops that coincide with others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Tops {
-    /// As one plane for all of them.
-    Planes,
-    /// Raised banks under a lid: every contact is a crossing.
-    Lids,
-}
-
-const fn remedy(
-    name: &'static str,
-    segments: usize,
-    overshoot: usize,
-    tops: Tops,
-    fuzzy: Option<f64>,
-) -> Remedy {
-    Remedy {
-        name,
-        cut: Cut {
-            segments,
-            overshoot,
-        },
-        tops,
-        fuzzy,
-    }
-}
-
 /// An attempt that was not proven, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failed {
+    /// What had made it.
+    pub engine: Engine,
     /// The remedy that was tried.
     pub remedy: &'static str,
     /// Why its result was not accepted.
@@ -108,14 +91,14 @@ pub struct Assembly {
     pub measured: Measured,
     /// The proof.
     pub proof: Proof,
+    /// What made the solids: never `Auto`.
+    pub engine: Engine,
     /// The remedy that made it (`none` if the first attempt was right).
     pub remedy: &'static str,
     /// Attempts before it.
     pub failed: Vec<Failed>,
-    /// Cells before merging.
-    pub cells: usize,
-    /// Pairs of faces that cross.
-    pub crossing_faces: usize,
+    /// Cells of a general fuse before merging.
+    pub cells: Option<usize>,
     /// Pairs of bodies that cross.
     pub crossing_bodies: usize,
     /// The kernel's warnings.
@@ -177,7 +160,8 @@ pub enum AssemblyError {
 
 fn list(failed: &[Failed]) -> String {
     let line = |(i, failed): (usize, &Failed)| {
-        format!("  {}. remedy “{}”: {}", i + 1, failed.remedy, failed.why)
+        let (engine, remedy) = (failed.engine.name(), failed.remedy);
+        format!("  {}. {engine}, remedy “{remedy}”: {}", i + 1, failed.why)
     };
     failed
         .iter()
@@ -185,6 +169,19 @@ fn list(failed: &[Failed]) -> String {
         .map(line)
         .collect::<Vec<_>>()
         .join("\n")
+}
+
+/// What an engine has made, before it is proven.
+struct Candidate {
+    engine: Engine,
+    remedy: &'static str,
+    solids: kernel::Solids,
+    measured: Measured,
+    /// What the engine knows of its own result.
+    evidence: Evidence,
+    cells: Option<usize>,
+    crossing_bodies: usize,
+    alerts: Vec<String>,
 }
 
 /// Assembles a plan and proves the result against the point evaluator.
@@ -195,192 +192,143 @@ pub fn assemble(
     cancel: &Cancel,
     progress: &(dyn Fn(Stage, f64) + Sync),
 ) -> Result<Assembly, AssemblyError> {
-    let mut failed = Vec::new();
-    let (mut fusing, mut proving) = (Duration::ZERO, Duration::ZERO);
-    for remedy in &LADDER {
-        let job = job(plan, remedy, options.threads);
+    let mut run = Run {
+        plan,
+        owners,
+        options,
+        cancel,
+        progress,
+        failed: Vec::new(),
+        times: [Duration::ZERO; 2],
+    };
+    if options.engine != Engine::Occt {
+        for remedy in &partitioned::REMEDIES {
+            let made = run.timed(|run| run.partition(remedy))?;
+            if let Some(assembly) = run.judge(made)? {
+                return Ok(assembly);
+            }
+        }
+    }
+    if options.engine != Engine::Partition {
+        for remedy in &fused::LADDER {
+            let made = run.timed(|run| run.fuse(remedy))?;
+            if let Some(assembly) = run.judge(made)? {
+                return Ok(assembly);
+            }
+        }
+    }
+    Err(AssemblyError::NotProven { failed: run.failed })
+}
+
+/// The state of an assembly under way.
+struct Run<'a> {
+    plan: &'a AssemblyPlan,
+    owners: &'a Owners,
+    options: &'a Options,
+    cancel: &'a Cancel,
+    progress: &'a (dyn Fn(Stage, f64) + Sync),
+    failed: Vec<Failed>,
+    /// Time spent on making and on proving.
+    times: [Duration; 2],
+}
+
+type Attempt = Result<Candidate, Failed>;
+
+impl Run<'_> {
+    fn timed(
+        &mut self,
+        make: impl FnOnce(&Self) -> Result<Attempt, AssemblyError>,
+    ) -> Result<Attempt, AssemblyError> {
         let started = Instant::now();
-        let fused = fuse(&job, options, cancel, &|fraction| {
-            progress(Stage::Fuse, fraction);
-        });
-        fusing += started.elapsed();
-        let (solids, report) = match fused {
-            Ok(Ok(fused)) => fused,
-            Ok(Err(FuseError::Cancelled)) => return Err(AssemblyError::Cancelled),
-            Ok(Err(error)) => {
-                failed.push(Failed {
-                    remedy: remedy.name,
-                    why: explain(&error, plan),
-                });
-                continue;
-            }
-            Err(error @ WorkerError::Crashed(_)) => {
-                let why = format!("{error}, with {}", names(plan));
-                failed.push(Failed {
-                    remedy: remedy.name,
-                    why,
-                });
-                continue;
-            }
-            Err(source) => {
-                return Err(AssemblyError::Worker {
-                    source,
-                    bodies: plan.bodies.len(),
-                    names: names(plan),
-                });
+        let made = make(self);
+        self.times[0] += started.elapsed();
+        made
+    }
+
+    fn partition(&self, remedy: &partitioned::Remedy) -> Result<Attempt, AssemblyError> {
+        (self.progress)(Stage::Assemble, 0.0);
+        let made = partitioned::attempt(self.plan, self.owners, remedy, self.options, self.cancel)?;
+        (self.progress)(Stage::Assemble, 1.0);
+        Ok(made.map(|made: Partitioned| Candidate {
+            engine: Engine::Partition,
+            remedy: remedy.name,
+            solids: made.solids,
+            measured: made.measured,
+            evidence: made.evidence,
+            cells: None,
+            crossing_bodies: made.crossing_bodies,
+            alerts: Vec::new(),
+        }))
+    }
+
+    fn fuse(&self, remedy: &fused::Remedy) -> Result<Attempt, AssemblyError> {
+        let share = |fraction| (self.progress)(Stage::Assemble, fraction);
+        let made = fused::attempt(self.plan, remedy, self.options, self.cancel, &share)?;
+        let fused = match made {
+            Ok(fused) => fused,
+            Err(failed) => return Ok(Err(failed)),
+        };
+        let measured = Measured::of_solids(&fused.solids, self.plan)
+            .map_err(|error| AssemblyError::Measure(error.to_string()))?;
+        Ok(Ok(Candidate {
+            engine: Engine::Occt,
+            remedy: remedy.name,
+            solids: fused.solids,
+            measured,
+            evidence: Evidence::of_kernel(fused.lids),
+            cells: Some(fused.report.cells),
+            crossing_bodies: fused.report.crossing_shells.len(),
+            alerts: fused.report.alerts,
+        }))
+    }
+
+    /// The assembly, if what was made is proven.
+    fn judge(&mut self, made: Attempt) -> Result<Option<Assembly>, AssemblyError> {
+        let candidate = match made {
+            Ok(candidate) => candidate,
+            Err(failed) => {
+                self.failed.push(failed);
+                return Ok(None);
             }
         };
         let started = Instant::now();
-        let measured = Measured::new(&solids, plan)
-            .map_err(|error| AssemblyError::Measure(error.to_string()))?;
-        let proof = proof::prove(
-            &solids,
-            &measured,
-            (plan, job.above_lids.len()),
-            owners,
-            options,
-            cancel,
-            &|fraction| {
-                progress(Stage::Prove, fraction);
-            },
-        );
-        proving += started.elapsed();
-        match proof {
-            Ok(proof) if proof.holds() => {
-                return Ok(finish(
-                    solids,
-                    measured,
-                    proof,
-                    remedy,
-                    failed,
-                    report,
-                    [fusing, proving],
-                ));
-            }
-            Ok(proof) => failed.push(Failed {
-                remedy: remedy.name,
-                why: proof.failures(),
-            }),
+        let share = |fraction| (self.progress)(Stage::Prove, fraction);
+        let proof = proof::Prover {
+            solids: &candidate.solids,
+            measured: &candidate.measured,
+            evidence: &candidate.evidence,
+            plan: self.plan,
+            owners: self.owners,
+            options: self.options,
+        }
+        .prove(self.cancel, &share);
+        self.times[1] += started.elapsed();
+        let why = match proof {
+            Ok(proof) if proof.holds() => return Ok(Some(self.finish(candidate, proof))),
+            Ok(proof) => proof.failures(),
             Err(proof::ProofError::Cancelled) => return Err(AssemblyError::Cancelled),
-            Err(error) => failed.push(Failed {
-                remedy: remedy.name,
-                why: error.to_string(),
-            }),
+            Err(error) => error.to_string(),
+        };
+        self.failed.push(Failed {
+            engine: candidate.engine,
+            remedy: candidate.remedy,
+            why,
+        });
+        Ok(None)
+    }
+
+    fn finish(&mut self, candidate: Candidate, proof: Proof) -> Assembly {
+        Assembly {
+            solids: candidate.solids,
+            measured: candidate.measured,
+            proof,
+            engine: candidate.engine,
+            remedy: candidate.remedy,
+            failed: std::mem::take(&mut self.failed),
+            cells: candidate.cells,
+            crossing_bodies: candidate.crossing_bodies,
+            alerts: candidate.alerts,
+            timings: vec![("assembly", self.times[0]), ("proof", self.times[1])],
         }
     }
-    Err(AssemblyError::NotProven { failed })
-}
-
-fn finish(
-    solids: kernel::Solids,
-    measured: Measured,
-    proof: Proof,
-    remedy: &Remedy,
-    failed: Vec<Failed>,
-    report: FuseReport,
-    [fusing, proving]: [Duration; 2],
-) -> Assembly {
-    Assembly {
-        solids,
-        measured,
-        proof,
-        remedy: remedy.name,
-        failed,
-        cells: report.cells,
-        crossing_faces: report.crossing_faces,
-        crossing_bodies: report.crossing_shells.len(),
-        alerts: report.alerts,
-        timings: vec![("assembly", fusing), ("proof", proving)],
-    }
-}
-
-fn fuse(
-    job: &FuseJob,
-    options: &Options,
-    cancel: &Cancel,
-    progress: &(dyn Fn(f64) + Sync),
-) -> worker::Outcome {
-    match &options.child {
-        Some(child) => worker::run(job, child, cancel, progress),
-        None => Ok(kernel::fuse(job, cancel, progress)),
-    }
-}
-
-/// The plan as the kernel's job, with one remedy's way of cutting.
-fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
-    let with_lids = remedy.tops == Tops::Lids;
-    let block = [plan.low, plan.high];
-    let shells: Vec<_> = plan
-        .shells
-        .iter()
-        .map(|shell| match &shell.flush {
-            Some(flush) if with_lids => shapes::trough(&flush.raised, block, remedy.cut, None),
-            flush => {
-                let level = flush.as_ref().map(|flush| flush.level);
-                shapes::shell(&shell.body, block, remedy.cut, level)
-            }
-        })
-        .collect();
-    // What lies above a lid is a box so large that only its floor meets anything.
-    let points = shells
-        .iter()
-        .flat_map(|shell| &shell.vertices)
-        .map(|p| glam::DVec3::from_array(*p));
-    let (low, high) = points.fold((plan.low, plan.high), |(low, high), p| {
-        (low.min(p), high.max(p))
-    });
-    let margin = glam::DVec3::splat((high - low).max_element());
-    let above = |lid: &f64| {
-        [
-            (low - margin).with_z(*lid).to_array(),
-            (high + margin).to_array(),
-        ]
-    };
-    FuseJob {
-        domain: [plan.low.to_array(), plan.high.to_array()],
-        above_lids: plan.lids.iter().filter(|_| with_lids).map(above).collect(),
-        shells,
-        bodies: plan
-            .bodies
-            .iter()
-            .map(|body| PlannedBody {
-                lid: body.lid.filter(|_| with_lids),
-                ..*body
-            })
-            .collect(),
-        rules: plan.rules.clone(),
-        threads,
-        fuzzy: remedy.fuzzy,
-    }
-}
-
-/// A fuse's failure with the volumes' names.
-fn explain(error: &FuseError, plan: &AssemblyPlan) -> String {
-    match error {
-        FuseError::Shell { volume, message } => {
-            format!(
-                "the kernel refuses the shell of {}: {message}",
-                plan.names[*volume]
-            )
-        }
-        FuseError::Kernel(_) | FuseError::UnusedFaces(_) | FuseError::Labels(_) => {
-            format!("{error}; bodies: {}", names(plan))
-        }
-        FuseError::Cancelled => error.to_string(),
-    }
-}
-
-/// The names of the bodies that take part, shortened if many.
-fn names(plan: &AssemblyPlan) -> String {
-    const MOST: usize = 12;
-    let mut names: Vec<&str> = plan
-        .bodies
-        .iter()
-        .take(MOST)
-        .map(|body| plan.names[body.volume].as_str())
-        .collect();
-    if plan.bodies.len() > MOST {
-        names.push("…");
-    }
-    names.join(", ")
 }

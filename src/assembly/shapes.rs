@@ -36,11 +36,11 @@ pub(crate) fn shell(body: &Body, block: [DVec3; 2], cut: Cut, level: Option<f64>
 /// With a `level` the top is the plane at this elevation.
 pub(crate) fn trough(
     trough: &Trough,
-    [low, high]: [DVec3; 2],
+    block: [DVec3; 2],
     cut: Cut,
     level: Option<f64>,
 ) -> Topology {
-    let (first, last) = ends(trough, low, high, cut.overshoot);
+    let [first, last] = ends(trough, block, cut.overshoot);
     let cuts = cuts(trough.base().knots_v(), first, last, cut.segments);
     Builder::new(trough, &cuts, level).build()
 }
@@ -98,7 +98,7 @@ fn open_sheet(surface: &nurbs::Surface) -> Topology {
 }
 
 /// The range of v that matters: from and to a section.
-fn ends(trough: &Trough, low: DVec3, high: DVec3, overshoot: usize) -> (f64, f64) {
+pub(super) fn ends(trough: &Trough, [low, high]: [DVec3; 2], overshoot: usize) -> [f64; 2] {
     let base = trough.base();
     let (start, end) = base.knots_v().domain();
     let knots = base.knots_v().as_slice();
@@ -118,7 +118,7 @@ fn ends(trough: &Trough, low: DVec3, high: DVec3, overshoot: usize) -> (f64, f64
     };
     let inside: Vec<usize> = (p..nv).filter(meets).collect();
     let (Some(&first), Some(&last)) = (inside.first(), inside.last()) else {
-        return (start, end);
+        return [start, end];
     };
     let sections = trough.sections();
     let before = sections
@@ -126,7 +126,7 @@ fn ends(trough: &Trough, low: DVec3, high: DVec3, overshoot: usize) -> (f64, f64
         .saturating_sub(1 + overshoot);
     let after =
         (sections.partition_point(|v| *v < knots[last + 1]) + overshoot).min(sections.len() - 1);
-    (sections[before], sections[after])
+    [sections[before], sections[after]]
 }
 
 /// Where the faces are cut: the two ends, and knots as evenly between as they lie.

@@ -48,6 +48,9 @@ pub(super) struct Args {
 /// How solids are assembled.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
+    /// What makes the solids. auto takes the partition, and the general fuse where the partition is in doubt.
+    #[arg(long, value_enum, default_value_t)]
+    engine: Engine,
     /// How thorough the proof is; fast is always made.
     #[arg(long, value_enum, default_value_t)]
     proof: ProofLevel,
@@ -60,6 +63,27 @@ pub(super) struct EngineArgs {
     /// No progress bars and no summary.
     #[arg(long)]
     pub(super) quiet: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Engine {
+    /// The partition; where it is in doubt or not proven, the general fuse.
+    #[default]
+    Auto,
+    /// The partition kernel alone.
+    Partition,
+    /// OpenCASCADE's general fuse alone.
+    Occt,
+}
+
+impl From<Engine> for assembly::Engine {
+    fn from(engine: Engine) -> Self {
+        match engine {
+            Engine::Auto => Self::Auto,
+            Engine::Partition => Self::Partition,
+            Engine::Occt => Self::Occt,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -166,6 +190,7 @@ pub(super) fn assemble(
         Failure::Surroundings(format!("the program cannot find itself: {error}"))
     })?;
     let options = assembly::Options {
+        engine: engine.engine.into(),
         child: Some(worker::Child {
             program,
             time_limit: Duration::from_secs(engine.time_limit),

@@ -42,7 +42,7 @@ impl Progress {
     /// A stage's share, from any thread.
     pub(super) fn share(&self, stage: Stage, fraction: f64) {
         self.bar.set_message(match stage {
-            Stage::Fuse => "assembling",
+            Stage::Assemble => "assembling",
             Stage::Prove => "proving",
         });
         #[allow(

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::ellipsoid::Ellipsoid;
-use crate::nurbs::{Curve, KnotError, KnotVector, Surface, SurfaceError};
+use crate::nurbs::{Curve, KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
 /// What a sheet of a body is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -94,7 +94,7 @@ pub struct Trough {
     sections: Vec<f64>,
 }
 
-/// Why a base cannot be closed or raised.
+/// Why a base cannot be closed, raised or cut.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TroughError {
     /// A sheet is no surface.
@@ -103,6 +103,9 @@ pub enum TroughError {
     /// The raised base has no knot vector.
     #[error(transparent)]
     Knots(#[from] KnotError),
+    /// A part's end is no place between its ends.
+    #[error(transparent)]
+    Part(#[from] RefineError),
 }
 
 /// Of a raised bank: its height, in steps from the rim's neighbour to the rim.
@@ -165,6 +168,21 @@ impl Trough {
             (Role::Start, end(first)?),
             (Role::End, end(last)?),
         ])
+    }
+
+    /// The part between two sections, with their v.
+    pub fn between(&self, from: f64, to: f64) -> Result<Self, TroughError> {
+        let (first, last) = self.base.knots_v().domain();
+        let mut base = self.base.clone();
+        if from > first {
+            base = base.split_v(from)?.1;
+        }
+        if to < last {
+            base = base.split_v(to)?.0;
+        }
+        let within = |v: &f64| (from..=to).contains(v);
+        let sections = self.sections.iter().copied().filter(within).collect();
+        Ok(Self::new(base, sections)?)
     }
 
     /// The same trough with its banks continued upwards in their own direction, above the old rims.

@@ -3,6 +3,8 @@
 //! It uses no CAD kernel, so it is the independent oracle of every assembly, and enough for whatever
 //! needs only sampled answers: sections, previews, logs, Monte Carlo volumes.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -18,7 +20,7 @@ pub struct Owners {
     low: DVec3,
     high: DVec3,
     rules: Rules,
-    shells: Vec<Enclosure>,
+    shells: Vec<Arc<Enclosure>>,
 }
 
 /// A body that has no inside.
@@ -62,12 +64,12 @@ impl Owners {
                 volume: volume(),
                 source,
             })?;
-            Enclosure::new(sheets.into_iter().map(|sheet| sheet.1).collect()).map_err(|source| {
-                OwnersError::Open {
+            Enclosure::new(sheets.into_iter().map(|sheet| sheet.1).collect())
+                .map(Arc::new)
+                .map_err(|source| OwnersError::Open {
                     volume: volume(),
                     source,
-                }
-            })
+                })
         };
         let shells = realisation
             .instances
@@ -94,6 +96,11 @@ impl Owners {
     /// Whether a point lies inside the shell of a volume's body.
     pub fn inside(&self, volume: usize, point: DVec3) -> bool {
         self.shells[volume - 1].contains(point)
+    }
+
+    /// The shell of a volume's body.
+    pub fn shell(&self, volume: usize) -> &Arc<Enclosure> {
+        &self.shells[volume - 1]
     }
 
     /// The volumes whose bodies' shells come within a distance of a point (m), whatever holds the point.

@@ -48,6 +48,18 @@ pub(super) struct Crossings {
     pub(super) roots: Vec<EdgeRoot>,
     pub(super) crossings: Vec<Crossing>,
     pub(super) triples: Vec<Triple>,
+    /// Regions whose sheets' crossings have faults.
+    pub(super) doubtful: Vec<usize>,
+}
+
+/// How to look for crossings.
+#[derive(Clone, Copy)]
+pub(super) struct Settings<'a> {
+    pub(super) tolerances: Tolerances,
+    /// Beyond this box nothing is wanted.
+    pub(super) clip: Bounds,
+    /// Asked now and then whether to stop; what was found until then is of no use.
+    pub(super) stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 /// How far a branch may be from what it should pass through, as a fraction of the domain's size.
@@ -70,6 +82,7 @@ struct Start {
 }
 
 struct Traced {
+    sheets: [usize; 2],
     crossings: Vec<Crossing>,
     faults: Faults,
 }
@@ -77,22 +90,32 @@ struct Traced {
 impl Crossings {
     pub(super) fn find(
         regions: &Regions,
-        tolerances: Tolerances,
-        clip: Bounds,
+        settings: Settings<'_>,
         faults: &mut Faults,
     ) -> Self {
+        let Settings {
+            tolerances,
+            clip,
+            stop,
+        } = settings;
         let roots = edge_roots(regions, tolerances, clip, faults);
         let traced: Vec<Traced> = pairs(regions, &clip)
             .into_par_iter()
+            .filter(|_| !stop())
             .map(|sheets| trace(regions, sheets, &roots, tolerances, clip))
             .collect();
         let mut crossings = Vec::new();
+        let mut doubtful = Vec::new();
         for one in traced {
+            if !one.faults.is_none() {
+                doubtful.extend(one.sheets.map(|sheet| regions.sheets[sheet].region));
+            }
             faults.add(&one.faults);
             crossings.extend(one.crossings);
         }
         let found: Vec<(Vec<Triple>, usize)> = (0..crossings.len())
             .into_par_iter()
+            .filter(|_| !stop())
             .map(|at| triples(regions, &crossings, at, tolerances, clip))
             .collect();
         let mut all = Vec::new();
@@ -100,7 +123,10 @@ impl Crossings {
             faults.undecided += undecided;
             all.extend(triples);
         }
+        doubtful.sort_unstable();
+        doubtful.dedup();
         Self {
+            doubtful,
             roots,
             crossings,
             triples: all,
@@ -211,7 +237,11 @@ fn trace(
         .into_iter()
         .map(|branch| Crossing { sheets, branch })
         .collect();
-    Traced { crossings, faults }
+    Traced {
+        sheets,
+        crossings,
+        faults,
+    }
 }
 
 fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Start> {

@@ -52,15 +52,20 @@ pub use topology::{
 pub type Label = Option<usize>;
 
 /// How to partition.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+#[derive(Clone, Copy)]
+pub struct Options<'a> {
     /// How far computed curves may be from their sheets, against the usual 1e-11 of the domain's diagonal.
     pub tightness: f64,
+    /// Asked now and then whether to stop.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Default for Options {
+impl Default for Options<'_> {
     fn default() -> Self {
-        Self { tightness: 1.0 }
+        Self {
+            tightness: 1.0,
+            stop: &|| false,
+        }
     }
 }
 
@@ -96,6 +101,9 @@ pub enum PartitionError {
         /// Its degrees in u and v.
         degrees: [usize; 2],
     },
+    /// Stopped on request.
+    #[error("stopped on request")]
+    Stopped,
     /// A sheet that does not separate inside from outside.
     #[error("sheet {sheet} of region {region} does not have the region on one side only")]
     NoSides {
@@ -113,6 +121,8 @@ pub struct Partition {
     pub topology: Topology,
     /// Zero everywhere if the topology may be used.
     pub faults: Faults,
+    /// Regions whose curves have faults, as far as it is known.
+    pub doubtful_regions: Vec<usize>,
     /// Pairs of regions whose sheets cross inside the domain.
     pub crossing_regions: Vec<(usize, usize)>,
     /// Computed curves.
@@ -130,7 +140,7 @@ const MARGIN: f64 = 5e-4;
 pub fn partition(
     regions: Vec<Region>,
     labels: &(dyn Fn(&[bool]) -> Label + Sync),
-    options: &Options,
+    options: &Options<'_>,
 ) -> Result<Partition, PartitionError> {
     let mut clock = Clock::start();
     let regions = region::Regions::new(regions)?;
@@ -139,7 +149,15 @@ pub fn partition(
     let clip = regions.domain.grown(MARGIN * scale);
     clock.lap("regions");
     let mut faults = Faults::default();
-    let crossings = crossings::Crossings::find(&regions, tolerances, clip, &mut faults);
+    let search = crossings::Settings {
+        tolerances,
+        clip,
+        stop: options.stop,
+    };
+    let crossings = crossings::Crossings::find(&regions, search, &mut faults);
+    if (options.stop)() {
+        return Err(PartitionError::Stopped);
+    }
     clock.lap("crossings");
     let geometry = tracks::Geometry {
         regions: &regions,
@@ -178,6 +196,7 @@ pub fn partition(
     Ok(Partition {
         topology,
         faults,
+        doubtful_regions: crossings.doubtful,
         crossing_regions,
         branches: crossings.crossings.len(),
         timings: clock.laps,

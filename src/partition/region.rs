@@ -1,5 +1,7 @@
 //! Regions: what the sheets bound, how the sheets of a region join, and whether a region holds a point.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -15,6 +17,13 @@ use crate::nurbs::{Curve, KnotVector, Surface};
 pub enum Region {
     /// The inside of a closed shell. Its surfaces join along whole sides.
     Shell(Vec<Surface>),
+    /// The same, for a part of a shell that is whole within the domain.
+    PartOf {
+        /// The part's own closed shell.
+        surfaces: Vec<Surface>,
+        /// The whole.
+        shell: Arc<Enclosure>,
+    },
     /// A box along the axes.
     Block {
         /// Lower corner (m).
@@ -29,7 +38,7 @@ pub enum Region {
 /// A region's membership.
 #[derive(Debug)]
 pub(super) enum Inside {
-    Shell(Box<Enclosure>),
+    Shell(Arc<Enclosure>),
     Block(DVec3, DVec3),
     Above(f64),
 }
@@ -209,16 +218,44 @@ impl Regions {
         }
     }
 
-    /// Finds out on which side of each sheet its region lies.
+    /// Finds out on which side of each sheet its region lies: for one sheet of each region by points beside it,
+    /// for the others by the edges that they share, along which outward sides agree.
     fn orient(&mut self) -> Result<(), PartitionError> {
-        let signs: Vec<Option<f64>> = self
-            .sheets
-            .par_iter()
-            .map(|sheet| outward(sheet, &self.inside[sheet.region], &self.bounds[sheet.region]))
+        let mut signs = vec![0.0; self.sheets.len()];
+        let firsts: Vec<usize> = (0..self.sheets.len())
+            .filter(|at| *at == 0 || self.sheets[*at].region != self.sheets[at - 1].region)
             .collect();
+        let told: Vec<Option<f64>> = firsts
+            .par_iter()
+            .map(|first| {
+                let sheet = &self.sheets[*first];
+                outward(sheet, &self.inside[sheet.region], &self.bounds[sheet.region])
+            })
+            .collect();
+        for (first, sign) in firsts.into_iter().zip(told) {
+            let region = self.sheets[first].region;
+            signs[first] = sign.ok_or(PartitionError::NoSides { region, sheet: first })?;
+        }
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for edge in &self.edges {
+                let [a, b] = &edge.sides;
+                let opposite = if a.sheet_is_left() == b.sheet_is_left() { -1.0 } else { 1.0 };
+                for (from, to) in [(a, b), (b, a)] {
+                    if signs[from.sheet] != 0.0 && signs[to.sheet] == 0.0 {
+                        signs[to.sheet] = opposite * signs[from.sheet];
+                        changed = true;
+                    }
+                }
+            }
+        }
         for (at, sign) in signs.into_iter().enumerate() {
             let region = self.sheets[at].region;
-            self.sheets[at].outward = sign.ok_or(PartitionError::NoSides { region, sheet: at })?;
+            if sign == 0.0 {
+                return Err(PartitionError::NoSides { region, sheet: at });
+            }
+            self.sheets[at].outward = sign;
         }
         Ok(())
     }
@@ -229,8 +266,9 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
         Region::Shell(sheets) => {
             let shell = Enclosure::new(sheets.clone())
                 .map_err(|source| PartitionError::Shell { region: index, source })?;
-            Ok(Made { sheets, inside: Inside::Shell(Box::new(shell)) })
+            Ok(Made { sheets, inside: Inside::Shell(Arc::new(shell)) })
         }
+        Region::PartOf { surfaces, shell } => Ok(Made { sheets: surfaces, inside: Inside::Shell(shell) }),
         Region::Block { low, high } => {
             let corner = |i: usize| {
                 let pick = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };

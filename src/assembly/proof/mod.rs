@@ -7,7 +7,7 @@
 mod samples;
 
 use super::Options;
-use super::kernel::{BridgeError, Cancel, Solids, Threads, defects};
+use super::kernel::{BridgeError, Cancel, FaceSample, Solids, Threads, defects};
 use super::measure::Measured;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
@@ -18,6 +18,8 @@ const TOLERANCE: f64 = super::shapes::EXACT;
 /// faces cancel, so only the ends of fitted curves on the skin count (measured: up to 2e-9), and a lost
 /// sliver of 0.05 m³ in a belt of 1000 m × 1000 m × 60 m must show.
 const SUM_TOLERANCE: f64 = 4e-9;
+/// Relative error of the kernel's integrals.
+const KERNEL_VOLUME: f64 = 1e-6;
 /// The domain's argument among the kernel's arguments.
 const DOMAIN: usize = 0;
 
@@ -111,65 +113,86 @@ impl From<BridgeError> for ProofError {
     }
 }
 
-struct Prover<'a> {
-    /// Lids among the kernel's arguments.
-    lids: usize,
-    solids: &'a Solids,
-    measured: &'a Measured,
-    plan: &'a AssemblyPlan,
-    owners: &'a Owners,
-    options: &'a Options,
+/// What an engine knows of its own result.
+pub(super) struct Evidence {
+    /// Lids among the arguments.
+    pub(super) lids: usize,
+    /// Points of all faces, if the engine has them.
+    pub(super) samples: Option<Vec<FaceSample>>,
+    /// What the engine states itself.
+    pub(super) checks: Vec<Check>,
 }
 
-/// Makes the proof.
-pub(super) fn prove(
-    solids: &Solids,
-    measured: &Measured,
-    (plan, lids): (&AssemblyPlan, usize),
-    owners: &Owners,
-    options: &Options,
-    cancel: &Cancel,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Result<Proof, ProofError> {
-    let prover = Prover {
-        lids,
-        solids,
-        measured,
-        plan,
-        owners,
-        options,
-    };
-    let steps: [&dyn Fn() -> Result<Vec<Check>, ProofError>; 5] = [
-        &|| {
-            Ok(vec![
-                prover.volume_sum(),
-                prover.positive_volumes(),
-                prover.outer_area(),
-            ])
-        },
-        &|| Ok(vec![prover.sharing()]),
-        &|| Ok(vec![prover.validity()?]),
-        &|| Ok(prover.sampled_volumes()),
-        &|| Ok(vec![prover.beside_faces()?, prover.within_solids()?]),
-    ];
-    let mut checks = Vec::new();
-    for (i, step) in steps.iter().enumerate() {
-        if cancel.is_cancelled() {
-            return Err(ProofError::Cancelled);
-        }
-        progress(i as f64 / steps.len() as f64);
-        let made = step()?;
-        let broken = made.iter().any(|check| !check.holds());
-        checks.extend(made);
-        if broken {
-            break;
+impl Evidence {
+    /// Of an engine that knows nothing: the kernel is asked.
+    pub(super) fn of_kernel(lids: usize) -> Self {
+        Self {
+            lids,
+            samples: None,
+            checks: Vec::new(),
         }
     }
-    progress(1.0);
-    Ok(Proof { checks })
+}
+
+/// A group of statements, to be made.
+type Step<'a> = Box<dyn Fn() -> Result<Vec<Check>, ProofError> + 'a>;
+
+/// Makes the proof.
+pub(super) struct Prover<'a> {
+    pub(super) solids: &'a Solids,
+    pub(super) measured: &'a Measured,
+    pub(super) evidence: &'a Evidence,
+    pub(super) plan: &'a AssemblyPlan,
+    pub(super) owners: &'a Owners,
+    pub(super) options: &'a Options,
 }
 
 impl Prover<'_> {
+    /// All statements, up to the first group that does not hold.
+    pub(super) fn prove(
+        &self,
+        cancel: &Cancel,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Proof, ProofError> {
+        let mut steps: Vec<Step<'_>> = vec![
+            Box::new(|| Ok(self.evidence.checks.clone())),
+            Box::new(|| {
+                Ok(vec![
+                    self.volume_sum(),
+                    self.positive_volumes(),
+                    self.outer_area(),
+                ])
+            }),
+            Box::new(|| Ok(vec![self.sharing()])),
+            Box::new(|| Ok(self.sampled_volumes())),
+            Box::new(|| Ok(vec![self.beside_faces()?])),
+        ];
+        // What an engine of ours has made it has checked itself; of a fuse's result the kernel is asked.
+        let is_ours = self.evidence.samples.is_some();
+        if !is_ours || self.options.proof == Level::Full {
+            steps.push(Box::new(|| Ok(vec![self.validity()?])));
+            steps.push(Box::new(|| Ok(vec![self.within_solids()?])));
+        }
+        if is_ours && self.options.proof == Level::Full {
+            steps.push(Box::new(|| Ok(vec![self.kernel_volumes()?])));
+        }
+        let mut checks = Vec::new();
+        for (i, step) in steps.iter().enumerate() {
+            if cancel.is_cancelled() {
+                return Err(ProofError::Cancelled);
+            }
+            progress(i as f64 / steps.len() as f64);
+            let made = step()?;
+            let broken = made.iter().any(|check| !check.holds());
+            checks.extend(made);
+            if broken {
+                break;
+            }
+        }
+        progress(1.0);
+        Ok(Proof { checks })
+    }
+
     fn name(&self, volume: usize) -> &str {
         &self.plan.names[volume]
     }
@@ -253,6 +276,41 @@ impl Prover<'_> {
                 format!("of {}", wrong.join(", "))
             },
         }
+    }
+
+    /// The kernel's integrals give the same volumes.
+    fn kernel_volumes(&self) -> Result<Check, ProofError> {
+        let measured = Measured::of_solids(self.solids, self.plan)?;
+        let of_solid = |of: &Measured| {
+            let mut sizes: Vec<(usize, usize, f64)> = of
+                .pieces
+                .iter()
+                .map(|piece| (piece.solid, piece.volume, piece.size))
+                .collect();
+            sizes.sort_by_key(|size| size.0);
+            sizes
+        };
+        let (ours, theirs) = (of_solid(self.measured), of_solid(&measured));
+        let worst = ours
+            .iter()
+            .zip(&theirs)
+            .map(|(a, b)| {
+                let area = 6.0 * a.2.abs().powf(2.0 / 3.0);
+                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * area;
+                ((a.2 - b.2).abs() / bound, a.1)
+            })
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .unwrap_or((0.0, 0));
+        Ok(Check {
+            name: "volumes agree with the kernel's integrals (miss / bound)",
+            measured: if ours.len() == theirs.len() {
+                worst.0
+            } else {
+                f64::INFINITY
+            },
+            bound: 1.0,
+            detail: format!("{} solids, worst {}", ours.len(), self.name(worst.1)),
+        })
     }
 
     /// The kernel's checker finds nothing.

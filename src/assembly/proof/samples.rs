@@ -91,7 +91,14 @@ impl Prover<'_> {
     pub(super) fn beside_faces(&self) -> Result<Check, ProofError> {
         let faces = self.solids.faces().len().max(1);
         let each = BESIDE_FACES.div_ceil(faces).max(LEAST_A_FACE);
-        let samples = face_samples(self.solids, each, Threads::All)?;
+        let asked;
+        let samples = match &self.evidence.samples {
+            Some(samples) => samples,
+            None => {
+                asked = face_samples(self.solids, each, Threads::All)?;
+                &asked
+            }
+        };
         // [the face looks out of this owner's solid, it looks into this one's]
         let mut sides = vec![[None; 2]; faces];
         for solid in self.solids.solids() {
@@ -142,7 +149,7 @@ impl Prover<'_> {
             format!("{name} at {point:.4}")
         });
         let touched = wrong.is_some() && {
-            let first_shell = 1 + self.lids;
+            let first_shell = 1 + self.evidence.lids;
             let origins = &self.solids.faces()[sample.face].origins;
             let of_face = |volume: usize| {
                 let bodies = self.plan.bodies.iter().filter(|body| body.volume == volume);

@@ -171,8 +171,9 @@ pub struct AssemblyEntry {
     pub remedy: &'static str,
     /// What was tried before, and why it was not accepted.
     pub failed_attempts: Vec<FailedEntry>,
-    /// Cells before those of one volume were merged.
-    pub cells: usize,
+    /// Cells of a general fuse before those of one volume were merged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cells: Option<usize>,
     /// Pairs of bodies that cross.
     pub crossing_pairs: usize,
     /// Solids.
@@ -190,6 +191,8 @@ pub struct AssemblyEntry {
 /// An attempt that was not accepted.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FailedEntry {
+    /// The engine that was tried.
+    pub engine: &'static str,
     /// The remedy that was tried.
     pub remedy: &'static str,
     /// Why it was not accepted.

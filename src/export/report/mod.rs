@@ -119,12 +119,13 @@ impl Report {
 
 fn assembly_entry(assembly: &Assembly) -> AssemblyEntry {
     AssemblyEntry {
-        engine: "occt",
+        engine: assembly.engine.name(),
         remedy: assembly.remedy,
         failed_attempts: assembly
             .failed
             .iter()
             .map(|failed| FailedEntry {
+                engine: failed.engine.name(),
                 remedy: failed.remedy,
                 why: failed.why.clone(),
             })

@@ -1,0 +1,185 @@
+//! The general fuse as engine: a ladder of remedies, each another way of giving the same bodies to the kernel.
+
+use super::kernel::{self, Cancel, FuseError, FuseJob, FuseReport, Solids};
+use super::shapes::{self, Cut};
+use super::worker::{self, WorkerError};
+use super::{AssemblyError, Engine, Failed, Options};
+use crate::model::plan::{AssemblyPlan, PlannedBody};
+
+/// One rung of the ladder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Remedy {
+    pub(super) name: &'static str,
+    cut: Cut,
+    tops: Tops,
+    fuzzy: Option<f64>,
+}
+
+/// Four segments and ends well outside are what most belts need; what follows avoids the grazing
+/// contacts that a failed attempt ran into by putting edges elsewhere.
+pub(super) const LADDER: [Remedy; 5] = [
+    remedy("none", 4, 2, Tops::Planes, None),
+    remedy("trajectories end elsewhere", 4, 4, Tops::Planes, None),
+    remedy("more segments", 8, 3, Tops::Lids, None),
+    remedy("whole surfaces", 1, 2, Tops::Lids, None),
+    remedy("fuzzy contacts of 1 µm", 6, 5, Tops::Planes, Some(1e-6)),
+];
+
+/// How the kernel is given level tops that coincide with others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tops {
+    /// As one plane for all of them.
+    Planes,
+    /// Raised banks under a lid: every contact is a crossing.
+    Lids,
+}
+
+const fn remedy(
+    name: &'static str,
+    segments: usize,
+    overshoot: usize,
+    tops: Tops,
+    fuzzy: Option<f64>,
+) -> Remedy {
+    Remedy {
+        name,
+        cut: Cut {
+            segments,
+            overshoot,
+        },
+        tops,
+        fuzzy,
+    }
+}
+
+/// One attempt: the fuse's result, or why there is none. `Err` ends all attempts.
+pub(super) fn attempt(
+    plan: &AssemblyPlan,
+    remedy: &Remedy,
+    options: &Options,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Result<Result<Fused, Failed>, AssemblyError> {
+    let job = job(plan, remedy, options.threads);
+    let failed = |why: String| {
+        Ok(Err(Failed {
+            engine: Engine::Occt,
+            remedy: remedy.name,
+            why,
+        }))
+    };
+    match fuse(&job, options, cancel, progress) {
+        Ok(Ok((solids, report))) => Ok(Ok(Fused {
+            solids,
+            report,
+            lids: job.above_lids.len(),
+        })),
+        Ok(Err(FuseError::Cancelled)) => Err(AssemblyError::Cancelled),
+        Ok(Err(error)) => failed(explain(&error, plan)),
+        Err(error @ WorkerError::Crashed(_)) => failed(format!("{error}, with {}", names(plan))),
+        Err(source) => Err(AssemblyError::Worker {
+            source,
+            bodies: plan.bodies.len(),
+            names: names(plan),
+        }),
+    }
+}
+
+/// What a fuse has made.
+pub(super) struct Fused {
+    pub(super) solids: Solids,
+    pub(super) report: FuseReport,
+    /// Lids among its arguments.
+    pub(super) lids: usize,
+}
+
+fn fuse(
+    job: &FuseJob,
+    options: &Options,
+    cancel: &Cancel,
+    progress: &(dyn Fn(f64) + Sync),
+) -> worker::Outcome {
+    match &options.child {
+        Some(child) => worker::run(job, child, cancel, progress),
+        None => Ok(kernel::fuse(job, cancel, progress)),
+    }
+}
+
+/// The plan as the kernel's job, with one remedy's way of cutting.
+fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
+    let with_lids = remedy.tops == Tops::Lids;
+    let block = [plan.low, plan.high];
+    let shells: Vec<_> = plan
+        .shells
+        .iter()
+        .map(|shell| match &shell.flush {
+            Some(flush) if with_lids => shapes::trough(&flush.raised, block, remedy.cut, None),
+            flush => {
+                let level = flush.as_ref().map(|flush| flush.level);
+                shapes::shell(&shell.body, block, remedy.cut, level)
+            }
+        })
+        .collect();
+    // What lies above a lid is a box so large that only its floor meets anything.
+    let points = shells
+        .iter()
+        .flat_map(|shell| &shell.vertices)
+        .map(|p| glam::DVec3::from_array(*p));
+    let (low, high) = points.fold((plan.low, plan.high), |(low, high), p| {
+        (low.min(p), high.max(p))
+    });
+    let margin = glam::DVec3::splat((high - low).max_element());
+    let above = |lid: &f64| {
+        [
+            (low - margin).with_z(*lid).to_array(),
+            (high + margin).to_array(),
+        ]
+    };
+    FuseJob {
+        domain: [plan.low.to_array(), plan.high.to_array()],
+        above_lids: plan.lids.iter().filter(|_| with_lids).map(above).collect(),
+        shells,
+        bodies: plan
+            .bodies
+            .iter()
+            .map(|body| PlannedBody {
+                lid: body.lid.filter(|_| with_lids),
+                ..*body
+            })
+            .collect(),
+        rules: plan.rules.clone(),
+        threads,
+        fuzzy: remedy.fuzzy,
+    }
+}
+
+/// A fuse's failure with the volumes' names.
+fn explain(error: &FuseError, plan: &AssemblyPlan) -> String {
+    match error {
+        FuseError::Shell { volume, message } => {
+            format!(
+                "the kernel refuses the shell of {}: {message}",
+                plan.names[*volume]
+            )
+        }
+        FuseError::Kernel(_) | FuseError::UnusedFaces(_) | FuseError::Labels(_) => {
+            format!("{error}; bodies: {}", names(plan))
+        }
+        FuseError::Cancelled => error.to_string(),
+    }
+}
+
+/// The names of the bodies that take part, shortened if many.
+fn names(plan: &AssemblyPlan) -> String {
+    const MOST: usize = 12;
+    let mut names: Vec<&str> = plan
+        .bodies
+        .iter()
+        .take(MOST)
+        .map(|body| plan.names[body.volume].as_str())
+        .collect();
+    if plan.bodies.len() > MOST {
+        names.push("…");
+    }
+    names.join(", ")
+}

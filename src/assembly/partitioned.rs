@@ -1,0 +1,339 @@
+//! The partition kernel as engine: the plan as regions, its topology as the kernel's solids.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::kernel::{
+    Cancel, Curve, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Pcurve, Solids, Surface,
+    TableEdge, TableFace, TableSolid, TableVertex, Tables,
+};
+use super::labels::Holders;
+use super::measure::{Counts, Measured};
+use super::proof::{Check, Evidence};
+use super::shapes::{self, EXACT};
+use super::{AssemblyError, Engine, Failed, Options};
+use crate::features::body::Body;
+use crate::model::owner::Owners;
+use crate::model::plan::{AssemblyPlan, PlannedShell};
+use crate::nurbs;
+use crate::partition::{
+    self, CurveShape, Partition, PartitionError, PlaneCurve, Region, SheetShape, Topology,
+};
+
+/// How exactly curves are computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Remedy {
+    pub(super) name: &'static str,
+    tightness: f64,
+}
+
+/// What fails with the usual tolerance may pass with a tighter one.
+pub(super) const REMEDIES: [Remedy; 2] = [
+    Remedy {
+        name: "none",
+        tightness: 1.0,
+    },
+    Remedy {
+        name: "tighter curves",
+        tightness: 0.1,
+    },
+];
+
+/// Sections of a trough kept beyond the last one whose span meets the domain.
+const OVERSHOOT: usize = 2;
+/// Degree of computed curves.
+const DEGREE: usize = 5;
+
+/// What the partition has made.
+pub(super) struct Partitioned {
+    pub(super) solids: Solids,
+    pub(super) measured: Measured,
+    pub(super) evidence: Evidence,
+    pub(super) crossing_bodies: usize,
+}
+
+/// One attempt: the partition's result, or why there is none. `Err` ends all attempts.
+pub(super) fn attempt(
+    plan: &AssemblyPlan,
+    owners: &Owners,
+    remedy: &Remedy,
+    options: &Options,
+    cancel: &Cancel,
+) -> Result<Result<Partitioned, Failed>, AssemblyError> {
+    let failed = |why: String| {
+        Ok(Err(Failed {
+            engine: Engine::Partition,
+            remedy: remedy.name,
+            why,
+        }))
+    };
+    let made = match partition(plan, owners, remedy, options, cancel) {
+        Ok(made) => made,
+        Err(Trouble::Partition(PartitionError::Stopped)) => return Err(AssemblyError::Cancelled),
+        Err(trouble) => return failed(trouble.to_string()),
+    };
+    if !made.faults.is_none() {
+        let names: Vec<&str> = made
+            .doubtful_regions
+            .iter()
+            .filter_map(|region| region.checked_sub(1 + plan.lids.len()))
+            .filter_map(|shell| plan.bodies.iter().find(|body| body.shell == shell))
+            .map(|body| plan.names[body.volume].as_str())
+            .collect();
+        let whose = if names.is_empty() {
+            String::new()
+        } else {
+            format!(" (at {})", names.join(", "))
+        };
+        return failed(format!("it contradicts itself{whose}: {}", made.faults));
+    }
+    match finish(plan, &made) {
+        Ok(made) => Ok(Ok(made)),
+        Err(error) => failed(format!("the kernel refuses its topology: {error}")),
+    }
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Trouble {
+    #[error(transparent)]
+    Partition(#[from] PartitionError),
+    #[error("a body cannot be cut off outside of the domain: {0}")]
+    Cut(#[from] crate::features::body::TroughError),
+    #[error("the ends of a body cannot be closed: {0}")]
+    Ends(#[from] nurbs::SurfaceError),
+    #[error("no threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+fn partition(
+    plan: &AssemblyPlan,
+    owners: &Owners,
+    remedy: &Remedy,
+    options: &Options,
+    cancel: &Cancel,
+) -> Result<Partition, Trouble> {
+    let mut regions = vec![Region::Block {
+        low: plan.low,
+        high: plan.high,
+    }];
+    regions.extend(plan.lids.iter().map(|level| Region::Above(*level)));
+    for (index, shell) in plan.shells.iter().enumerate() {
+        regions.push(region(plan, owners, index, shell)?);
+    }
+    let holders = Holders::new(&plan.bodies, plan.rules.len(), plan.lids.len());
+    let labels = |inside: &[bool]| holders.owner(&plan.rules, inside);
+    let settings = partition::Options {
+        tightness: remedy.tightness,
+        stop: &|| cancel.is_cancelled(),
+    };
+    if options.threads == 0 {
+        return Ok(partition::partition(regions, &labels, &settings)?);
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build()?;
+    Ok(pool.install(|| partition::partition(regions, &labels, &settings))?)
+}
+
+/// A shell as far as it matters for the domain. Level tops that coincide with others are raised, to be cut by lids.
+fn region(
+    plan: &AssemblyPlan,
+    owners: &Owners,
+    index: usize,
+    shell: &PlannedShell,
+) -> Result<Region, Trouble> {
+    let block = [plan.low, plan.high];
+    let surfaces = |trough: &crate::features::body::Trough| -> Result<Vec<nurbs::Surface>, Trouble> {
+        let [first, last] = shapes::ends(trough, block, OVERSHOOT);
+        let near = trough.between(first, last)?;
+        Ok(near.sheets()?.into_iter().map(|sheet| sheet.1).collect())
+    };
+    match (&shell.flush, &shell.body) {
+        (Some(flush), _) => Ok(Region::Shell(surfaces(&flush.raised)?)),
+        (None, body) => {
+            let surfaces = match body {
+                Body::Trough(trough) => surfaces(trough)?,
+                Body::Ellipsoid(_) => body.sheets()?.into_iter().map(|sheet| sheet.1).collect(),
+            };
+            // The point evaluator has the whole shell: within the domain they are the same.
+            let whole = plan.bodies.iter().find(|body| body.shell == index);
+            Ok(match whole {
+                Some(body) => Region::PartOf {
+                    surfaces,
+                    shell: Arc::clone(owners.shell(body.volume)),
+                },
+                None => Region::Shell(surfaces),
+            })
+        }
+    }
+}
+
+fn finish(
+    plan: &AssemblyPlan,
+    made: &Partition,
+) -> Result<Partitioned, super::kernel::BridgeError> {
+    let topology = &made.topology;
+    let solids = Solids::from_tables(&tables(topology))?;
+    let integrals: Vec<FaceIntegral> = topology
+        .faces
+        .iter()
+        .map(|face| FaceIntegral {
+            area: face.integral.area,
+            flux: face.integral.flux,
+            error: 0.0,
+            tolerance: EXACT,
+        })
+        .collect();
+    let boxes: Vec<(DVec3, DVec3)> = topology.solids.iter().map(|solid| solid.bounds).collect();
+    let deviation = deviation(topology);
+    let measured = Measured::new(
+        &solids,
+        &integrals,
+        &boxes,
+        Counts {
+            edges: topology.edges.len(),
+            tolerance: deviation.max(EXACT),
+        },
+        plan,
+    );
+    let first_shell = 1 + plan.lids.len();
+    let bodies = |pair: &&(usize, usize)| pair.0 >= first_shell && pair.1 >= first_shell;
+    Ok(Partitioned {
+        evidence: Evidence {
+            lids: plan.lids.len(),
+            samples: Some(samples(topology)),
+            checks: vec![Check {
+                name: "distance of edges from their surfaces and vertices (m)",
+                measured: deviation,
+                bound: EXACT.max(1e-9 * (plan.high - plan.low).length()),
+                detail: format!("{} edges, {} computed curves", topology.edges.len(), made.branches),
+            }],
+        },
+        crossing_bodies: made.crossing_regions.iter().filter(bodies).count(),
+        solids,
+        measured,
+    })
+}
+
+/// Farthest of any edge from its surfaces, and of any vertex from its edges.
+fn deviation(topology: &Topology) -> f64 {
+    let edges = topology.edges.iter().map(|edge| edge.deviation);
+    let vertices = topology.vertices.iter().map(|vertex| vertex.gap);
+    edges.chain(vertices).fold(0.0, f64::max)
+}
+
+fn samples(topology: &Topology) -> Vec<FaceSample> {
+    let of_face = |(face, own): (usize, &partition::Face)| {
+        own.samples
+            .iter()
+            .map(|sample| FaceSample {
+                face,
+                point: sample.point.to_array(),
+                normal: sample.normal.to_array(),
+            })
+            .collect::<Vec<_>>()
+    };
+    topology.faces.iter().enumerate().flat_map(of_face).collect()
+}
+
+/// The topology as the bridge's tables.
+fn tables(topology: &Topology) -> Tables {
+    Tables {
+        vertices: topology
+            .vertices
+            .iter()
+            .map(|vertex| TableVertex {
+                point: vertex.point.to_array(),
+                tolerance: EXACT.max(1.1 * vertex.gap),
+            })
+            .collect(),
+        curves: topology.curves.iter().map(curve).collect(),
+        surfaces: topology.sheets.iter().map(surface).collect(),
+        pcurves: topology.plane_curves.iter().map(pcurve).collect(),
+        edges: topology
+            .edges
+            .iter()
+            .map(|edge| TableEdge {
+                curve: edge.curve,
+                range: edge.range,
+                start: edge.ends[0],
+                end: edge.ends[1],
+                // Between the samples a curve is a little farther off.
+                tolerance: EXACT.max(2.0 * edge.deviation),
+                on: edge
+                    .on
+                    .iter()
+                    .map(|on| OnSurface {
+                        surface: on.sheet,
+                        forward: on.forward,
+                        reversed: on.reversed,
+                    })
+                    .collect(),
+            })
+            .collect(),
+        faces: topology
+            .faces
+            .iter()
+            .map(|face| {
+                let sheet = &topology.sheets[face.sheet];
+                TableFace {
+                    surface: face.sheet,
+                    loops: face.loops.clone(),
+                    tolerance: EXACT,
+                    origins: vec![FaceOrigin {
+                        argument: sheet.region,
+                        face: sheet.place,
+                        same_orientation: sheet.looks_out,
+                    }],
+                }
+            })
+            .collect(),
+        solids: topology
+            .solids
+            .iter()
+            .map(|solid| TableSolid {
+                owner: solid.label,
+                shells: solid.shells.clone(),
+            })
+            .collect(),
+    }
+}
+
+fn curve(shape: &CurveShape) -> Curve {
+    match shape {
+        CurveShape::Known(curve) => shapes::curve(curve),
+        CurveShape::Computed { knots, points } => Curve::BSpline {
+            degree: DEGREE,
+            knots: knots.clone(),
+            poles: points.iter().map(DVec3::to_array).collect(),
+            weights: None,
+        },
+    }
+}
+
+fn pcurve(shape: &PlaneCurve) -> Pcurve {
+    match shape {
+        PlaneCurve::Line { origin, direction } => Pcurve::Line {
+            origin: origin.to_array(),
+            direction: direction.to_array(),
+        },
+        PlaneCurve::Computed { knots, points } => Pcurve::BSpline {
+            degree: DEGREE,
+            knots: knots.clone(),
+            poles: points.iter().map(glam::DVec2::to_array).collect(),
+            weights: None,
+        },
+    }
+}
+
+fn surface(sheet: &SheetShape) -> Surface {
+    match sheet.plane {
+        Some([origin, normal, x_axis]) => Surface::Plane {
+            origin: origin.to_array(),
+            normal: normal.to_array(),
+            x_axis: x_axis.to_array(),
+        },
+        None => shapes::spline(&sheet.surface),
+    }
+}
