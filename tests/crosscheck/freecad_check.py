@@ -16,6 +16,8 @@ import FreeCAD
 MM = 1000.0
 # FreeCAD integrates volumes with a fixed number of points: up to 8e-4 off for a solid of ours, 6e-5 for their sum.
 ROUGH, ROUGH_SUM = 1e-3, 1e-4
+# For models with ellipsoids, whose rational surfaces these points fit worse.
+ROUGH_ROUND = 3e-3
 
 
 class Findings:
@@ -72,6 +74,7 @@ def check_tree(report, volumes, by_volume, found):
 
 
 def check_shapes(report, volumes, by_volume, found):
+    rough = ROUGH_ROUND if any(v["kind"] == "ellipsoid" for v in volumes.values()) else ROUGH
     total, count, worst = 0.0, 0, 0.0
     corners = []
     for name, own in by_volume.items():
@@ -84,7 +87,7 @@ def check_shapes(report, volumes, by_volume, found):
         found.expect(len(sizes) == len(promised), f"{name} has {len(sizes)} solids, not {len(promised)}")
         for size, told in zip(sizes, sorted(s["volume_m3"] for s in promised)):
             # A tiny piece is known no better than its boundary: ten litres.
-            found.expect(abs(size - told) <= max(ROUGH * told, 0.01), f"a solid of {name} has {size} m³, not {told}")
+            found.expect(abs(size - told) <= max(rough * told, 0.01), f"a solid of {name} has {size} m³, not {told}")
             worst = max(worst, abs(size / told - 1))
         total += sum(sizes)
         count += len(sizes)

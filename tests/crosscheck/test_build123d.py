@@ -7,7 +7,7 @@ from collections import Counter
 
 import build123d as bd
 import pytest
-from conftest import FINE, FINE_SUM, ROUGH, ROUGH_SUM
+from conftest import FINE, FINE_SUM, ROUGH_SUM
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
@@ -168,7 +168,7 @@ def test_volumes_agree_with_the_report(build, parts):
 
 
 def test_build123ds_own_rough_volumes_agree_with_the_report(build, parts):
-    total = check_volumes(build, parts, lambda solid: solid.volume, ROUGH)
+    total = check_volumes(build, parts, lambda solid: solid.volume, build.rough)
     assert total == pytest.approx(build.domain["volume_m3"], rel=ROUGH_SUM)
 
 
@@ -221,9 +221,9 @@ def test_the_contacts_of_the_brep_are_the_reports_neighbours(build, brep):
     assert contacts.keys() == promised.keys()
     for pair, area in promised.items():
         # Areas are integrated roughly here.
-        assert contacts[pair] == pytest.approx(area, rel=ROUGH, abs=1e-3), pair
+        assert contacts[pair] == pytest.approx(area, rel=build.rough, abs=1e-3), pair
     for volume in build.volumes.values():
-        assert outer[volume.name] == pytest.approx(volume.outer_area, rel=ROUGH, abs=1e-3), volume.name
+        assert outer[volume.name] == pytest.approx(volume.outer_area, rel=build.rough, abs=1e-3), volume.name
 
 
 def test_the_shared_flavour_keeps_common_faces_and_its_shells_close_into_the_solids(build, shared):

@@ -4,7 +4,7 @@ from collections import Counter
 
 import cadquery as cq
 import pytest
-from conftest import ROUGH, ROUGH_SUM
+from conftest import ROUGH_SUM
 from OCP.Interface import Interface_Static
 
 
@@ -45,7 +45,7 @@ def test_volumes_agree_with_the_report(build, parts):
         found[build.volume_of(name).name] += [(s.Volume(), s.Area()) for s in solids(node)]
     for name, sizes in found.items():
         for (size, area), told in zip(sorted(sizes), sorted(build.volumes[name].solids), strict=True):
-            assert build.same_volume(size, told, ROUGH, area), (name, size, told)
+            assert build.same_volume(size, told, build.rough, area), (name, size, told)
     total = sum(size for sizes in found.values() for size, _ in sizes)
     assert total == pytest.approx(build.domain["volume_m3"], rel=ROUGH_SUM)
 
