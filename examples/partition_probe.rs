@@ -30,7 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             own.set(format!("seed={seed}"));
             count += 1;
             let why = match one(&own, 1, false)? {
-                (faults, error, negative) if faults != "none" || error.abs() > 1e-3 || negative > 0 => {
+                (faults, error, negative)
+                    if faults != "none" || error.abs() > 1e-3 || negative > 0 =>
+                {
                     format!("{faults}; volume error {error:.3e}; negative {negative}")
                 }
                 _ => continue,
@@ -50,16 +52,28 @@ fn one(source: &Source, runs: usize, print: bool) -> Result<(String, f64, usize)
     let model = Model::check(source).map_err(|d| d.to_string())?;
     let realisation = Realisation::new(&model, &Selection::default())?;
     let corner = |i: usize| DVec3::new(model.domain.x[i], model.domain.y[i], model.domain.z[i]);
-    let mut regions = vec![Region::Block { low: corner(0), high: corner(1) }];
+    let mut regions = vec![Region::Block {
+        low: corner(0),
+        high: corner(1),
+    }];
     let mut volumes = Vec::new();
     for instance in &realisation.instances {
-        regions.push(Region::Shell(instance.body.sheets()?.into_iter().map(|s| s.1).collect()));
+        regions.push(Region::Shell(
+            instance.body.sheets()?.into_iter().map(|s| s.1).collect(),
+        ));
         volumes.push(instance.volume);
     }
     let rules = &realisation.rules;
-    let labels = |inside: &[bool]| inside[0].then(|| rules.owner(|volume| {
-        volumes.iter().position(|v| *v == volume).is_some_and(|at| inside[at + 1])
-    }));
+    let labels = |inside: &[bool]| {
+        inside[0].then(|| {
+            rules.owner(|volume| {
+                volumes
+                    .iter()
+                    .position(|v| *v == volume)
+                    .is_some_and(|at| inside[at + 1])
+            })
+        })
+    };
     for _ in 0..runs {
         let started = Instant::now();
         let made = partition::partition(regions.clone(), &labels, &Options::default())?;
@@ -69,14 +83,25 @@ fn one(source: &Source, runs: usize, print: bool) -> Result<(String, f64, usize)
         let sum: f64 = t.solids.iter().map(|s| s.size).sum();
         let deviation = t.edges.iter().fold(0.0_f64, |m, e| m.max(e.deviation));
         let gap = t.vertices.iter().fold(0.0_f64, |m, v| m.max(v.gap));
-        last = (made.faults.to_string(), sum - size, t.solids.iter().filter(|s| !(s.size > 0.0)).count());
+        last = (
+            made.faults.to_string(),
+            sum - size,
+            t.solids.iter().filter(|s| !(s.size > 0.0)).count(),
+        );
         if !print {
             continue;
         }
         println!("{total:.1?} {:?}", made.timings);
         println!("faults: {}", made.faults);
-        println!("solids {} faces {} edges {} vertices {} branches {} | volume error {:.3e} m3 | deviation {deviation:.1e} gap {gap:.1e}",
-            t.solids.len(), t.faces.len(), t.edges.len(), t.vertices.len(), made.branches, sum - size);
+        println!(
+            "solids {} faces {} edges {} vertices {} branches {} | volume error {:.3e} m3 | deviation {deviation:.1e} gap {gap:.1e}",
+            t.solids.len(),
+            t.faces.len(),
+            t.edges.len(),
+            t.vertices.len(),
+            made.branches,
+            sum - size
+        );
     }
     Ok(last)
 }

@@ -16,7 +16,7 @@ use crate::model::plan::{AssemblyPlan, PlannedShell};
 const EPS: f64 = 1e-6;
 /// The same where there are ellipsoids: 1e-6 of the flux of a trimmed face, seen from the middle of the
 /// domain, was 1.5e-5 of a nodule's volume. 1e-8 is right to 1e-6 of it.
-const EPS_ROUND: f64 = 1e-8;
+const EPS_FINE: f64 = 1e-8;
 
 /// A solid: one connected piece of a volume.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,13 +62,21 @@ pub(super) struct Counts {
 impl Measured {
     /// Measures solids that the kernel made, by the kernel's integrals.
     pub(super) fn of_solids(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
-        let middle = (plan.low + plan.high) / 2.0;
         let round = |shell: &PlannedShell| matches!(shell.body, Body::Ellipsoid(_));
-        let eps = if plan.shells.iter().any(round) {
-            EPS_ROUND
+        if plan.shells.iter().any(round) {
+            Self::finely(solids, plan)
         } else {
-            EPS
-        };
+            Self::with_error(solids, plan, EPS)
+        }
+    }
+
+    /// The same, more finely: for faces that are round, or not cut into segments.
+    pub(super) fn finely(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
+        Self::with_error(solids, plan, EPS_FINE)
+    }
+
+    fn with_error(solids: &Solids, plan: &AssemblyPlan, eps: f64) -> Result<Self, BridgeError> {
+        let middle = (plan.low + plan.high) / 2.0;
         let integrals = face_integrals(solids, eps, middle.to_array(), Threads::All)?;
         let boxes: Vec<(DVec3, DVec3)> = solid_boxes(solids, Threads::All)?
             .iter()

@@ -144,11 +144,12 @@ fn region(
     shell: &PlannedShell,
 ) -> Result<Region, Trouble> {
     let block = [plan.low, plan.high];
-    let surfaces = |trough: &crate::features::body::Trough| -> Result<Vec<nurbs::Surface>, Trouble> {
-        let [first, last] = shapes::ends(trough, block, OVERSHOOT);
-        let near = trough.between(first, last)?;
-        Ok(near.sheets()?.into_iter().map(|sheet| sheet.1).collect())
-    };
+    let surfaces =
+        |trough: &crate::features::body::Trough| -> Result<Vec<nurbs::Surface>, Trouble> {
+            let [first, last] = shapes::ends(trough, block, OVERSHOOT);
+            let near = trough.between(first, last)?;
+            Ok(near.sheets()?.into_iter().map(|sheet| sheet.1).collect())
+        };
     match (&shell.flush, &shell.body) {
         (Some(flush), _) => Ok(Region::Shell(surfaces(&flush.raised)?)),
         (None, body) => {
@@ -207,7 +208,11 @@ fn finish(
                 name: "distance of edges from their surfaces and vertices (m)",
                 measured: deviation,
                 bound: EXACT.max(1e-9 * (plan.high - plan.low).length()),
-                detail: format!("{} edges, {} computed curves", topology.edges.len(), made.branches),
+                detail: format!(
+                    "{} edges, {} computed curves",
+                    topology.edges.len(),
+                    made.branches
+                ),
             }],
         },
         crossing_bodies: made.crossing_regions.iter().filter(bodies).count(),
@@ -234,7 +239,12 @@ fn samples(topology: &Topology) -> Vec<FaceSample> {
             })
             .collect::<Vec<_>>()
     };
-    topology.faces.iter().enumerate().flat_map(of_face).collect()
+    topology
+        .faces
+        .iter()
+        .enumerate()
+        .flat_map(of_face)
+        .collect()
 }
 
 /// The topology as the bridge's tables.

@@ -34,12 +34,7 @@ pub(crate) fn shell(body: &Body, block: [DVec3; 2], cut: Cut, level: Option<f64>
 /// The closed shell of a trough, its ends outside the box `low`–`high` left off.
 ///
 /// With a `level` the top is the plane at this elevation.
-pub(crate) fn trough(
-    trough: &Trough,
-    block: [DVec3; 2],
-    cut: Cut,
-    level: Option<f64>,
-) -> Topology {
+pub(crate) fn trough(trough: &Trough, block: [DVec3; 2], cut: Cut, level: Option<f64>) -> Topology {
     let [first, last] = ends(trough, block, cut.overshoot);
     let cuts = cuts(trough.base().knots_v(), first, last, cut.segments);
     Builder::new(trough, &cuts, level).build()

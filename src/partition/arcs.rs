@@ -204,7 +204,10 @@ fn cross(
         flap(1, true, [sector[3], sector[2]], [1, 0]),
         flap(0, false, [sector[0], sector[3]], [1, 0]),
     ];
-    let flaps: Vec<Flap> = all.into_iter().filter(|flap| flap.labels[0] != flap.labels[1]).collect();
+    let flaps: Vec<Flap> = all
+        .into_iter()
+        .filter(|flap| flap.labels[0] != flap.labels[1])
+        .collect();
     // Both halves of one sheet between the same labels: the sheet goes on, without an edge.
     match flaps[..] {
         [first, second] if first.side == second.side && first.labels == second.labels => Vec::new(),

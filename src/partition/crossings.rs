@@ -88,11 +88,7 @@ struct Traced {
 }
 
 impl Crossings {
-    pub(super) fn find(
-        regions: &Regions,
-        settings: Settings<'_>,
-        faults: &mut Faults,
-    ) -> Self {
+    pub(super) fn find(regions: &Regions, settings: Settings<'_>, faults: &mut Faults) -> Self {
         let Settings {
             tolerances,
             clip,
@@ -140,7 +136,8 @@ fn pairs(regions: &Regions, clip: &Bounds) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for (i, a) in sheets.iter().enumerate() {
         for (j, b) in sheets.iter().enumerate().skip(i + 1) {
-            let near = a.bounds().meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
+            let near =
+                a.bounds().meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
             if near && a.region != b.region {
                 pairs.push([i, j]);
             }
@@ -168,11 +165,19 @@ fn edge_roots(
             }
             let found = Piercing::new(&own.segments, other, tolerances, clip).run();
             undecided += found.undecided;
-            roots.extend(found.roots.into_iter().map(|root| EdgeRoot { edge, sheet, root }));
+            roots.extend(
+                found
+                    .roots
+                    .into_iter()
+                    .map(|root| EdgeRoot { edge, sheet, root }),
+            );
         }
         (roots, undecided)
     };
-    let found: Vec<_> = (0..regions.edges.len()).into_par_iter().map(of_edge).collect();
+    let found: Vec<_> = (0..regions.edges.len())
+        .into_par_iter()
+        .map(of_edge)
+        .collect();
     let mut roots = Vec::new();
     for (own, undecided) in found {
         faults.undecided += undecided;
@@ -227,7 +232,10 @@ fn trace(
     let mut search = Search::new(pair, clip, branches, found);
     search.run();
     faults.undecided += search.undecided + usize::from(search.gave_up());
-    let first_new = search.branches.iter().position(|branch| !matches!(branch.ends[0], End::AtRoot(_)));
+    let first_new = search
+        .branches
+        .iter()
+        .position(|branch| !matches!(branch.ends[0], End::AtRoot(_)));
     let mut branches = search.branches;
     for branch in branches.iter_mut().skip(first_new.unwrap_or(usize::MAX)) {
         finish(branch, &mut starts, tolerances, &mut faults);
@@ -254,7 +262,11 @@ fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Star
                     continue;
                 }
                 let at = side.at(&regions.sheets, found.root.t).0;
-                let (a, b) = if own == 0 { (at, found.root.at) } else { (found.root.at, at) };
+                let (a, b) = if own == 0 {
+                    (at, found.root.at)
+                } else {
+                    (found.root.at, at)
+                };
                 starts.push(Start {
                     root,
                     side: own,
@@ -273,7 +285,11 @@ fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Star
 fn inwards(pair: &Pair<'_>, start: &Start) -> Option<Node> {
     let node = pair.node(start.q, None)?;
     let across = node.first[3 + 2 * start.side + start.border.axis()];
-    Some(if (across < 0.0) == start.border.is_high() { node } else { node.reversed() })
+    Some(if (across < 0.0) == start.border.is_high() {
+        node
+    } else {
+        node.reversed()
+    })
 }
 
 /// Gives ends on borders their roots.
@@ -283,7 +299,11 @@ fn finish(branch: &mut Branch, starts: &mut [Start], tolerances: Tolerances, fau
             faults.tangents += usize::from(branch.ends[which] == End::Tangent);
             continue;
         };
-        let node = if which == 0 { &branch.nodes[0] } else { &branch.nodes[branch.nodes.len() - 1] };
+        let node = if which == 0 {
+            &branch.nodes[0]
+        } else {
+            &branch.nodes[branch.nodes.len() - 1]
+        };
         let point = node.point();
         let nearest = starts
             .iter_mut()
@@ -312,7 +332,9 @@ fn triples(
     let branch = &crossing.branch;
     let segments: Vec<Segment> = (0..branch.pieces())
         .map(|piece| {
-            let points = branch.control(piece).map(|c| hermite::space(&c).extend(1.0));
+            let points = branch
+                .control(piece)
+                .map(|c| hermite::space(&c).extend(1.0));
             Segment::new(points, [branch.lengths[piece], branch.lengths[piece + 1]])
         })
         .collect();
@@ -330,7 +352,12 @@ fn triples(
         undecided += found.undecided;
         for root in found.roots {
             match refine(regions, crossing, sheet, &root, tolerances) {
-                Some((t, point)) => triples.push(Triple { crossing: at, sheet, t, point }),
+                Some((t, point)) => triples.push(Triple {
+                    crossing: at,
+                    sheet,
+                    t,
+                    point,
+                }),
                 None => undecided += 1,
             }
         }

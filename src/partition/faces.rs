@@ -84,7 +84,15 @@ pub(super) fn faces(
     let traced: Vec<Traced> = by_sheet
         .into_par_iter()
         .enumerate()
-        .map(|(sheet, halves)| Tracer { geometry, tracks, arcs, sheet }.trace(&halves))
+        .map(|(sheet, halves)| {
+            Tracer {
+                geometry,
+                tracks,
+                arcs,
+                sheet,
+            }
+            .trace(&halves)
+        })
         .collect();
     let mut faces = Vec::new();
     for one in traced {
@@ -105,7 +113,10 @@ impl Tracer<'_> {
     fn trace(&self, halves: &[HalfEdge]) -> Traced {
         let mut faults = Faults::default();
         if halves.is_empty() {
-            return Traced { faces: Vec::new(), faults };
+            return Traced {
+                faces: Vec::new(),
+                faults,
+            };
         }
         let (mut links, places) = self.links(halves);
         self.connect(&mut links, places, &mut faults);
@@ -113,7 +124,10 @@ impl Tracer<'_> {
         let mut outer: Vec<(Face, f64)> = Vec::new();
         let mut holes: Vec<(Vec<usize>, Vec<DVec2>, f64)> = Vec::new();
         for one in loops {
-            if one.iter().any(|at| links[*at].labels != links[one[0]].labels) {
+            if one
+                .iter()
+                .any(|at| links[*at].labels != links[one[0]].labels)
+            {
                 faults.mixed_loops += 1;
             }
             let polygon = self.polygon(&one, &links);
@@ -139,7 +153,8 @@ impl Tracer<'_> {
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             match home {
                 Some((face, _)) => {
-                    face.loops.push(one.iter().map(|at| links[*at].half).collect());
+                    face.loops
+                        .push(one.iter().map(|at| links[*at].half).collect());
                     face.polygons.push(polygon);
                 }
                 None => faults.homeless_holes += 1,
@@ -160,7 +175,10 @@ impl Tracer<'_> {
         let mut places = 0;
         let mut place = |vertex: usize, at: DVec2| {
             let list = known.entry(vertex).or_default();
-            if let Some(found) = list.iter().find(|one| ((one.0 - at) / unit).abs().max_element() < SAME_PLACE) {
+            if let Some(found) = list
+                .iter()
+                .find(|one| ((one.0 - at) / unit).abs().max_element() < SAME_PLACE)
+            {
                 return found.1;
             }
             list.push((at, places));
@@ -225,7 +243,9 @@ impl Tracer<'_> {
         let mut turns: Vec<(f64, bool, usize)> = Vec::with_capacity(out.len());
         for &at in out {
             let other = &links[at].half;
-            let back = other.arc == link.half.arc && other.side == link.half.side && other.forward != link.half.forward;
+            let back = other.arc == link.half.arc
+                && other.side == link.half.side
+                && other.forward != link.half.forward;
             let mut turned = turn(links[at].leaving);
             let mut clear = true;
             if back {
@@ -286,7 +306,9 @@ impl Tracer<'_> {
         let source = self.tracks.tracks[arc.track].source;
         let at = |t: f64| self.geometry.on_sheet(source, half.side, t).0 / unit;
         let middle = at(arc.t[0].midpoint(arc.t[1]));
-        at(arc.t[0]).distance(middle).min(at(arc.t[1]).distance(middle))
+        at(arc.t[0])
+            .distance(middle)
+            .min(at(arc.t[1]).distance(middle))
     }
 
     /// How far clockwise an outgoing arc lies from the one that arrived, both nearly in the same direction.
@@ -328,14 +350,19 @@ impl Tracer<'_> {
             let each = if stops.len() < POLYGON { POLYGON } else { each };
             let mut ts: Vec<f64> = stops
                 .windows(2)
-                .flat_map(|pair| (0..each).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / each as f64))
+                .flat_map(|pair| {
+                    (0..each).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / each as f64)
+                })
                 .collect();
             if !half.forward {
                 ts.push(arc.t[1]);
                 ts.remove(0);
                 ts.reverse();
             }
-            polygon.extend(ts.into_iter().map(|t| self.geometry.on_sheet(source, half.side, t).0));
+            polygon.extend(
+                ts.into_iter()
+                    .map(|t| self.geometry.on_sheet(source, half.side, t).0),
+            );
         }
         polygon
     }
@@ -371,7 +398,9 @@ pub(super) fn signed_area(polygon: &[DVec2]) -> f64 {
         return 0.0;
     };
     let pairs = polygon.iter().zip(polygon.iter().skip(1));
-    0.5 * pairs.map(|(a, b)| (*a - origin).perp_dot(*b - origin)).sum::<f64>()
+    0.5 * pairs
+        .map(|(a, b)| (*a - origin).perp_dot(*b - origin))
+        .sum::<f64>()
 }
 
 /// Whether a polygon holds a point, by crossings of a ray.

@@ -193,13 +193,29 @@ impl Branch {
         knots.extend([self.lengths[last]; 6]);
         let mut points = Vec::with_capacity(3 * self.nodes.len());
         for (i, node) in self.nodes.iter().enumerate() {
-            let back = if i > 0 { self.lengths[i - 1] - self.lengths[i] } else { 0.0 };
-            let ahead = if i < last { self.lengths[i + 1] - self.lengths[i] } else { 0.0 };
+            let back = if i > 0 {
+                self.lengths[i - 1] - self.lengths[i]
+            } else {
+                0.0
+            };
+            let ahead = if i < last {
+                self.lengths[i + 1] - self.lengths[i]
+            } else {
+                0.0
+            };
             // Blossoms of the node's Taylor polynomial at the knots around it.
             let arguments = if i == 0 {
-                [[0.0; 5], [0.0, 0.0, 0.0, 0.0, ahead], [0.0, 0.0, 0.0, ahead, ahead]]
+                [
+                    [0.0; 5],
+                    [0.0, 0.0, 0.0, 0.0, ahead],
+                    [0.0, 0.0, 0.0, ahead, ahead],
+                ]
             } else if i == last {
-                [[back, back, 0.0, 0.0, 0.0], [back, 0.0, 0.0, 0.0, 0.0], [0.0; 5]]
+                [
+                    [back, back, 0.0, 0.0, 0.0],
+                    [back, 0.0, 0.0, 0.0, 0.0],
+                    [0.0; 5],
+                ]
             } else {
                 [
                     [back, back, 0.0, 0.0, 0.0],

@@ -64,7 +64,12 @@ impl March<'_> {
         }
         let back = self.run(start.reversed(), start);
         let ends = [back.end, forward.end];
-        let nodes: Vec<Node> = back.nodes.iter().rev().map(|node| node.reversed()).collect();
+        let nodes: Vec<Node> = back
+            .nodes
+            .iter()
+            .rev()
+            .map(|node| node.reversed())
+            .collect();
         let lengths: Vec<f64> = back.lengths.iter().rev().copied().collect();
         let nodes = [nodes, vec![start]].concat();
         Some(self.branch(nodes, lengths, forward, ends)).filter(|branch| branch.nodes.len() > 1)
@@ -93,7 +98,9 @@ impl March<'_> {
         }
         let mut deviation: f64 = 0.0;
         for (pair, length) in nodes.windows(2).zip(&between) {
-            let one = self.pair.deviation(&pair[0], &pair[1], *length, FINAL_SAMPLES);
+            let one = self
+                .pair
+                .deviation(&pair[0], &pair[1], *length, FINAL_SAMPLES);
             deviation = deviation.max(one);
         }
         Branch {
@@ -134,7 +141,11 @@ impl March<'_> {
                     }
                     let wanted = self.clip.holds(node.point());
                     if let Some((side, border)) = border {
-                        run.end = if wanted { End::AtBorder(side, border) } else { End::Outside };
+                        run.end = if wanted {
+                            End::AtBorder(side, border)
+                        } else {
+                            End::Outside
+                        };
                         return run;
                     }
                     if !wanted && !self.far.holds(node.point()) {
@@ -272,7 +283,11 @@ impl March<'_> {
                 if !high && q[i] >= sheet.low(axis) - slack {
                     continue;
                 }
-                let bound = if high { sheet.high(axis) } else { sheet.low(axis) };
+                let bound = if high {
+                    sheet.high(axis)
+                } else {
+                    sheet.low(axis)
+                };
                 let part = (bound - from[i]) / (q[i] - from[i]);
                 if first.is_none_or(|(least, _, _)| part < least) {
                     first = Some((part, i, high));
@@ -286,7 +301,11 @@ impl March<'_> {
         for _ in 0..4 {
             let (part, i, high) = crossing;
             let (sheet, axis) = (sheets[i / 2], i % 2);
-            let bound = if high { sheet.high(axis) } else { sheet.low(axis) };
+            let bound = if high {
+                sheet.high(axis)
+            } else {
+                sheet.low(axis)
+            };
             let part = part.clamp(0.0, 1.0);
             let mut at: [f64; 4] = std::array::from_fn(|k| from[k] + part * (q[k] - from[k]));
             if !self.pair.newton(&mut at, Closing::Fixed(i, bound), 14) {

@@ -84,7 +84,9 @@ pub enum PartitionError {
         source: EnclosureError,
     },
     /// A side that is the side of no other surface, point by point at equal parameters.
-    #[error("region {region} is open from {from} to {to}: sides must join along their whole length, with parameters in proportion")]
+    #[error(
+        "region {region} is open from {from} to {to}: sides must join along their whole length, with parameters in proportion"
+    )]
     Open {
         /// The region's index.
         region: usize,
@@ -182,7 +184,11 @@ pub fn partition(
     let topology = topology::Topology::new(&parts, solids);
     clock.lap("solids");
     let inside = |crossing: &&crossings::Crossing| {
-        crossing.branch.nodes.iter().any(|node| regions.domain.holds(node.point()))
+        crossing
+            .branch
+            .nodes
+            .iter()
+            .any(|node| regions.domain.holds(node.point()))
     };
     let mut crossing_regions: Vec<(usize, usize)> = crossings
         .crossings

@@ -90,7 +90,8 @@ impl Pair<'_> {
             if !self.is_near(q) {
                 return false;
             }
-            let moved = (au * step[0] + av * step[1]).length() + (bu * step[2] + bv * step[3]).length();
+            let moved =
+                (au * step[0] + av * step[1]).length() + (bu * step[2] + bv * step[3]).length();
             if let Closing::Fixed(k, value) = closing {
                 q[k] = value;
             }

@@ -161,15 +161,16 @@ impl Patch {
 
     fn control(&self, i: usize, j: usize) -> DVec3 {
         let h = self.net[i * self.columns + j];
-        if self.rational { h.xyz() / h.w } else { h.xyz() }
+        if self.rational {
+            h.xyz() / h.w
+        } else {
+            h.xyz()
+        }
     }
 
     /// The parameters of its middle.
     pub(super) fn middle(&self) -> [f64; 2] {
-        [
-            0.5 * (self.u[0] + self.u[1]),
-            0.5 * (self.v[0] + self.v[1]),
-        ]
+        [0.5 * (self.u[0] + self.u[1]), 0.5 * (self.v[0] + self.v[1])]
     }
 
     /// Point and derivatives in the surface's parameters.
@@ -342,9 +343,7 @@ impl Patch {
     /// hodographs by positive functions, and their legs still bound the directions well enough here:
     /// cones only decide how deep to look.
     pub(super) fn normals(&self) -> Option<(DVec3, f64)> {
-        let legs_u = (0..self.rows - 1).flat_map(|i| {
-            (0..self.columns).map(move |j| (i, j))
-        });
+        let legs_u = (0..self.rows - 1).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
         let legs_v = (0..self.rows).flat_map(|i| (0..self.columns - 1).map(move |j| (i, j)));
         let (a, alpha) = cone(legs_u.map(|(i, j)| self.control(i + 1, j) - self.control(i, j)))?;
         let (b, beta) = cone(legs_v.map(|(i, j)| self.control(i, j + 1) - self.control(i, j)))?;

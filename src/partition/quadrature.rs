@@ -73,7 +73,12 @@ fn rule(degree: usize, rational: bool) -> &'static [(f64, f64)] {
     }
 }
 
-fn integrate(rule: &[(f64, f64)], from: f64, to: f64, mut at: impl FnMut(f64) -> Integral) -> Integral {
+fn integrate(
+    rule: &[(f64, f64)],
+    from: f64,
+    to: f64,
+    mut at: impl FnMut(f64) -> Integral,
+) -> Integral {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let mut sum = Integral::default();
     let mut add = |x: f64, weight: f64| {
@@ -124,8 +129,13 @@ fn of_face(
             Source::Edge(_) | Source::Pole(_) => across.along,
         };
         let breaks = geometry.breaks(source);
-        let inner = breaks.into_iter().filter(|t| *t > arc.t[0] && *t < arc.t[1]);
-        let stops: Vec<f64> = std::iter::once(arc.t[0]).chain(inner).chain([arc.t[1]]).collect();
+        let inner = breaks
+            .into_iter()
+            .filter(|t| *t > arc.t[0] && *t < arc.t[1]);
+        let stops: Vec<f64> = std::iter::once(arc.t[0])
+            .chain(inner)
+            .chain([arc.t[1]])
+            .collect();
         for pair in stops.windows(2) {
             let own = integrate(outer_rule, pair[0], pair[1], |t| {
                 let (at, speed) = geometry.on_sheet(source, half.side, t);
@@ -150,7 +160,11 @@ fn gaps(
         let arc = &arcs[half.arc];
         let source = tracks.tracks[arc.track].source;
         let ends = arc.t.map(|t| geometry.on_sheet(source, half.side, t).0);
-        if half.forward { ends } else { [ends[1], ends[0]] }
+        if half.forward {
+            ends
+        } else {
+            [ends[1], ends[0]]
+        }
     };
     let mut sum = Integral::default();
     let mut last = ends(&own[own.len() - 1])[1];
@@ -207,10 +221,16 @@ impl<'a> Across<'a> {
         let mut sum = Integral::default();
         let mut start = low;
         for end in inner.chain([high]) {
-            let slice = self.sheet.slice(fixed, place[1 - self.axis], 0.5 * (start + end));
+            let slice = self
+                .sheet
+                .slice(fixed, place[1 - self.axis], 0.5 * (start + end));
             let own = integrate(self.rule, start, end, |x| {
                 let (p, along, other) = slice.jet(x);
-                let normal = if self.axis == 0 { along.cross(other) } else { other.cross(along) };
+                let normal = if self.axis == 0 {
+                    along.cross(other)
+                } else {
+                    other.cross(along)
+                };
                 Integral {
                     area: normal.length(),
                     flux: (p - self.middle).dot(normal) / 3.0,

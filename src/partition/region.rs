@@ -125,7 +125,10 @@ impl Regions {
         let Some(Region::Block { low, high }) = regions.first() else {
             return Err(PartitionError::NoDomain);
         };
-        let domain = Bounds { low: *low, high: *high };
+        let domain = Bounds {
+            low: *low,
+            high: *high,
+        };
         let made = regions
             .into_par_iter()
             .enumerate()
@@ -146,8 +149,10 @@ impl Regions {
             let is_open = matches!(region.inside, Inside::Above(_));
             for surface in region.sheets {
                 let degrees = [surface.knots_u().degree(), surface.knots_v().degree()];
-                let sheet = Sheet::new(surface, index)
-                    .ok_or(PartitionError::Degree { region: index, degrees })?;
+                let sheet = Sheet::new(surface, index).ok_or(PartitionError::Degree {
+                    region: index,
+                    degrees,
+                })?;
                 bounds = bounds.and(*sheet.bounds());
                 all.sheets.push(sheet);
             }
@@ -180,7 +185,11 @@ impl Regions {
                 let bounds = Bounds::of(curve.points().iter().copied());
                 if bounds.diagonal() <= tolerance {
                     let point = curve.points()[0];
-                    self.poles.push(Pole { sheet, border, point });
+                    self.poles.push(Pole {
+                        sheet,
+                        border,
+                        point,
+                    });
                     continue;
                 }
                 let partner = open
@@ -194,8 +203,18 @@ impl Regions {
                             continue;
                         };
                         let sides = [
-                            Side { sheet: first, border: first_border, shift: 0.0, scale: 1.0 },
-                            Side { sheet, border, shift, scale },
+                            Side {
+                                sheet: first,
+                                border: first_border,
+                                shift: 0.0,
+                                scale: 1.0,
+                            },
+                            Side {
+                                sheet,
+                                border,
+                                shift,
+                                scale,
+                            },
                         ];
                         self.edges.push(Edge {
                             segments: segments(&first_curve),
@@ -229,19 +248,30 @@ impl Regions {
             .par_iter()
             .map(|first| {
                 let sheet = &self.sheets[*first];
-                outward(sheet, &self.inside[sheet.region], &self.bounds[sheet.region])
+                outward(
+                    sheet,
+                    &self.inside[sheet.region],
+                    &self.bounds[sheet.region],
+                )
             })
             .collect();
         for (first, sign) in firsts.into_iter().zip(told) {
             let region = self.sheets[first].region;
-            signs[first] = sign.ok_or(PartitionError::NoSides { region, sheet: first })?;
+            signs[first] = sign.ok_or(PartitionError::NoSides {
+                region,
+                sheet: first,
+            })?;
         }
         let mut changed = true;
         while changed {
             changed = false;
             for edge in &self.edges {
                 let [a, b] = &edge.sides;
-                let opposite = if a.sheet_is_left() == b.sheet_is_left() { -1.0 } else { 1.0 };
+                let opposite = if a.sheet_is_left() == b.sheet_is_left() {
+                    -1.0
+                } else {
+                    1.0
+                };
                 for (from, to) in [(a, b), (b, a)] {
                     if signs[from.sheet] != 0.0 && signs[to.sheet] == 0.0 {
                         signs[to.sheet] = opposite * signs[from.sheet];
@@ -264,31 +294,66 @@ impl Regions {
 fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, PartitionError> {
     match region {
         Region::Shell(sheets) => {
-            let shell = Enclosure::new(sheets.clone())
-                .map_err(|source| PartitionError::Shell { region: index, source })?;
-            Ok(Made { sheets, inside: Inside::Shell(Arc::new(shell)) })
+            let shell = Enclosure::new(sheets.clone()).map_err(|source| PartitionError::Shell {
+                region: index,
+                source,
+            })?;
+            Ok(Made {
+                sheets,
+                inside: Inside::Shell(Arc::new(shell)),
+            })
         }
-        Region::PartOf { surfaces, shell } => Ok(Made { sheets: surfaces, inside: Inside::Shell(shell) }),
+        Region::PartOf { surfaces, shell } => Ok(Made {
+            sheets: surfaces,
+            inside: Inside::Shell(shell),
+        }),
         Region::Block { low, high } => {
             let corner = |i: usize| {
-                let pick = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };
+                let pick = |axis: usize| {
+                    if i >> axis & 1 == 1 {
+                        high[axis]
+                    } else {
+                        low[axis]
+                    }
+                };
                 DVec3::new(pick(0), pick(1), pick(2))
             };
-            let sheets = [[0, 2, 4, 6], [1, 3, 5, 7], [0, 1, 4, 5], [2, 3, 6, 7], [0, 1, 2, 3], [4, 5, 6, 7]]
-                .iter()
-                .map(|corners| rectangle(corners.map(corner)))
-                .collect::<Result<_, _>>()
-                .map_err(|()| PartitionError::NoDomain)?;
-            Ok(Made { sheets, inside: Inside::Block(low, high) })
+            let sheets = [
+                [0, 2, 4, 6],
+                [1, 3, 5, 7],
+                [0, 1, 4, 5],
+                [2, 3, 6, 7],
+                [0, 1, 2, 3],
+                [4, 5, 6, 7],
+            ]
+            .iter()
+            .map(|corners| rectangle(corners.map(corner)))
+            .collect::<Result<_, _>>()
+            .map_err(|()| PartitionError::NoDomain)?;
+            Ok(Made {
+                sheets,
+                inside: Inside::Block(low, high),
+            })
         }
         Region::Above(level) => {
             let (low, high) = (domain.low, domain.high);
             let margin = 0.1 * (high - low).max_element();
             let at = |x: f64, y: f64| DVec3::new(x, y, level);
-            let (x, y) = ([low.x - margin, high.x + margin], [low.y - margin, high.y + margin]);
-            let corners = [at(x[0], y[0]), at(x[1], y[0]), at(x[0], y[1]), at(x[1], y[1])];
+            let (x, y) = (
+                [low.x - margin, high.x + margin],
+                [low.y - margin, high.y + margin],
+            );
+            let corners = [
+                at(x[0], y[0]),
+                at(x[1], y[0]),
+                at(x[0], y[1]),
+                at(x[1], y[1]),
+            ];
             let sheet = rectangle(corners).map_err(|()| PartitionError::NoDomain)?;
-            Ok(Made { sheets: vec![sheet], inside: Inside::Above(level) })
+            Ok(Made {
+                sheets: vec![sheet],
+                inside: Inside::Above(level),
+            })
         }
     }
 }
@@ -303,7 +368,11 @@ fn rectangle([a, b, c, d]: [DVec3; 4]) -> Result<Surface, ()> {
 pub(super) fn segments(curve: &Curve) -> Vec<Segment> {
     let segment = |piece: &Curve| {
         let (start, end) = piece.domain();
-        let points = piece.points().iter().zip(piece.weights()).map(|(p, w)| (*p * *w).extend(*w));
+        let points = piece
+            .points()
+            .iter()
+            .zip(piece.weights())
+            .map(|(p, w)| (*p * *w).extend(*w));
         Segment::new(points, [start, end])
     };
     curve.bezier_segments().iter().map(segment).collect()
@@ -342,7 +411,10 @@ fn outward(sheet: &Sheet, inside: &Inside, bounds: &Bounds) -> Option<f64> {
             let Some(normal) = pu.cross(pv).try_normalize() else {
                 continue;
             };
-            let (ahead, behind) = (inside.holds(p + reach * normal), inside.holds(p - reach * normal));
+            let (ahead, behind) = (
+                inside.holds(p + reach * normal),
+                inside.holds(p - reach * normal),
+            );
             if ahead != behind {
                 return Some(if behind { 1.0 } else { -1.0 });
             }

@@ -65,7 +65,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     fn nodes(&mut self, i: usize, j: usize) {
         let [a, b] = self.pair.sheets;
         let (x, y) = (a.node(i), b.node(j));
-        if !x.bounds.meets(&y.bounds) || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds) {
+        if !x.bounds.meets(&y.bounds) || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds)
+        {
             return;
         }
         match (x.kind, y.kind) {
@@ -116,7 +117,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             }
             return;
         }
-        let first = if size_a > RATIO * size_b || size_b > RATIO * size_a || size_b < least || size_a < least {
+        let first = if size_a > RATIO * size_b
+            || size_b > RATIO * size_a
+            || size_b < least
+            || size_a < least
+        {
             size_a > size_b
         } else if a.lean() < FLAT && b.lean() < FLAT {
             size_a > size_b

@@ -83,8 +83,11 @@ impl Parts<'_> {
     }
 
     fn faces_of_flaps(&self) -> Vec<Vec<Option<usize>>> {
-        let mut of_flap: Vec<Vec<Option<usize>>> =
-            self.arcs.iter().map(|arc| vec![None; arc.flaps.len()]).collect();
+        let mut of_flap: Vec<Vec<Option<usize>>> = self
+            .arcs
+            .iter()
+            .map(|arc| vec![None; arc.flaps.len()])
+            .collect();
         for (index, face) in self.faces.iter().enumerate() {
             for half in face.loops.iter().flatten() {
                 of_flap[half.arc][half.flap] = Some(index);
@@ -105,10 +108,15 @@ impl Parts<'_> {
         let mut shells = Vec::new();
         for halves in by_root.into_values() {
             let label = self.label(halves[0]);
-            faults.mixed_shells += usize::from(halves.iter().any(|half| self.label(*half) != label));
+            faults.mixed_shells +=
+                usize::from(halves.iter().any(|half| self.label(*half) != label));
             let Some(label) = label else { continue };
             let volume = halves.iter().map(|half| self.signed(*half)).sum();
-            shells.push(Shell { label, halves, volume });
+            shells.push(Shell {
+                label,
+                halves,
+                volume,
+            });
         }
         shells
     }
@@ -148,7 +156,9 @@ impl Parts<'_> {
             passes.sort_unstable();
             let open = passes
                 .chunk_by(|a, b| a.0 == b.0)
-                .filter(|own| own[0].0 != usize::MAX && own.iter().map(|pass| pass.1).sum::<i32>() != 0)
+                .filter(|own| {
+                    own[0].0 != usize::MAX && own.iter().map(|pass| pass.1).sum::<i32>() != 0
+                })
                 .count();
             faults.open_shells += open;
         }
@@ -183,7 +193,10 @@ impl Parts<'_> {
             let out = self.geometry.regions.sheets[self.faces[half / 2].sheet].outward;
             (out > 0.0) != (half % 2 == 0)
         };
-        halves.iter().map(|half| (half / 2, reversed(half))).collect()
+        halves
+            .iter()
+            .map(|half| (half / 2, reversed(half)))
+            .collect()
     }
 
     /// The smallest shell of the same label that a void lies in, by a ray from the void.
@@ -200,7 +213,9 @@ impl Parts<'_> {
         let half = face.loops.first()?.first()?;
         let arc = &self.arcs[half.arc];
         let source = self.tracks.tracks[arc.track].source;
-        let start = self.geometry.point(source, arc.t[0] + 0.5171 * (arc.t[1] - arc.t[0]));
+        let start = self
+            .geometry
+            .point(source, arc.t[0] + 0.5171 * (arc.t[1] - arc.t[0]));
         let reach = 2.0 * self.geometry.regions.domain.diagonal();
         let ray = [Segment::new(
             [start.extend(1.0), (start + reach * DIRECTION).extend(1.0)],
@@ -212,7 +227,11 @@ impl Parts<'_> {
             .filter(|at| {
                 let toggles = |face: &&usize| {
                     let halves = [2 * **face, 2 * **face + 1];
-                    halves.iter().filter(|half| outer[*at].halves.binary_search(half).is_ok()).count() == 1
+                    halves
+                        .iter()
+                        .filter(|half| outer[*at].halves.binary_search(half).is_ok())
+                        .count()
+                        == 1
                 };
                 crossed.iter().filter(toggles).count() % 2 == 1
             })
@@ -235,6 +254,10 @@ impl Parts<'_> {
 
 /// Whether a place of its sheet lies on a face.
 fn face_holds(face: &Face, at: DVec2) -> bool {
-    let within = face.polygons.iter().filter(|polygon| encloses(polygon, at)).count();
+    let within = face
+        .polygons
+        .iter()
+        .filter(|polygon| encloses(polygon, at))
+        .count();
     within % 2 == 1
 }

@@ -11,8 +11,13 @@ pub(super) fn solve<const N: usize>(
         .iter()
         .fold(0.0_f64, |most, x| most.max(x.abs()));
     for i in 0..N {
-        let pivot =
-            (i..N).fold(i, |best, r| if matrix[r][i].abs() > matrix[best][i].abs() { r } else { best });
+        let pivot = (i..N).fold(i, |best, r| {
+            if matrix[r][i].abs() > matrix[best][i].abs() {
+                r
+            } else {
+                best
+            }
+        });
         // NaN must fail too.
         if !(matrix[pivot][i].abs() > SINGULAR * scale) {
             return None;

@@ -182,7 +182,12 @@ impl Topology {
             .into_iter()
             .map(|solid| {
                 let bounds = topology.bounds(parts, &solid);
-                Solid { label: solid.label, shells: solid.shells, size: solid.volume, bounds }
+                Solid {
+                    label: solid.label,
+                    shells: solid.shells,
+                    size: solid.volume,
+                    bounds,
+                }
             })
             .collect();
         topology
@@ -222,7 +227,10 @@ impl Builder<'_> {
         }
         let all = &self.parts.geometry.regions.sheets;
         let sheet = &all[at];
-        let first = all.iter().position(|other| other.region == sheet.region).unwrap_or(at);
+        let first = all
+            .iter()
+            .position(|other| other.region == sheet.region)
+            .unwrap_or(at);
         self.topology.sheets.push(SheetShape {
             region: sheet.region,
             place: at - first,
@@ -267,7 +275,11 @@ impl Builder<'_> {
         self.topology.faces.push(Face {
             sheet,
             loops,
-            labels: if looks_out { [inner, outer] } else { [outer, inner] },
+            labels: if looks_out {
+                [inner, outer]
+            } else {
+                [outer, inner]
+            },
             integral,
             samples: Vec::new(),
         });
@@ -282,15 +294,29 @@ impl Builder<'_> {
         let curve = self.curve(arc.track);
         let ends = arc.vertices.map(|vertex| self.vertex(vertex));
         let deviation = match track.source {
-            Source::Crossing(index) => self.parts.geometry.crossings.crossings[index].branch.deviation,
+            Source::Crossing(index) => {
+                self.parts.geometry.crossings.crossings[index]
+                    .branch
+                    .deviation
+            }
             Source::Edge(_) | Source::Pole(_) => 0.0,
         };
         for (end, t) in ends.iter().zip(arc.t) {
-            let gap = self.parts.geometry.point(track.source, t).distance(self.topology.vertices[*end].point);
+            let gap = self
+                .parts
+                .geometry
+                .point(track.source, t)
+                .distance(self.topology.vertices[*end].point);
             let vertex = &mut self.topology.vertices[*end];
             vertex.gap = vertex.gap.max(gap);
         }
-        self.topology.edges.push(Edge { curve, range: arc.t, ends, deviation, on: Vec::new() });
+        self.topology.edges.push(Edge {
+            curve,
+            range: arc.t,
+            ends,
+            deviation,
+            on: Vec::new(),
+        });
         let made = self.topology.edges.len() - 1;
         self.edges[at] = Some(made);
         made
@@ -302,14 +328,20 @@ impl Builder<'_> {
             let Some(edge) = self.edges[at] else { continue };
             let sheets = self.parts.tracks.tracks[arc.track].sheets;
             for flap in &arc.flaps {
-                let Some(sheet) = self.sheets[sheets[flap.side]] else { continue };
+                let Some(sheet) = self.sheets[sheets[flap.side]] else {
+                    continue;
+                };
                 if self.topology.sheets[sheet].plane.is_some() {
                     continue;
                 }
                 let image = self.image(arc.track, flap.side);
                 let on = &mut self.topology.edges[edge].on;
                 match on.iter_mut().find(|one| one.sheet == sheet) {
-                    None => on.push(OnSheet { sheet, forward: image, reversed: None }),
+                    None => on.push(OnSheet {
+                        sheet,
+                        forward: image,
+                        reversed: None,
+                    }),
                     Some(other) if other.forward == image => {}
                     // A seam: the left side is run along forwards.
                     Some(other) if flap.left => {
@@ -333,7 +365,10 @@ impl Builder<'_> {
             Source::Crossing(at) => {
                 let (knots, points) = geometry.crossings.crossings[at].branch.spline();
                 let place = |p: &[f64; PARTS]| DVec3::new(p[0], p[1], p[2]);
-                CurveShape::Computed { knots, points: points.iter().map(place).collect() }
+                CurveShape::Computed {
+                    knots,
+                    points: points.iter().map(place).collect(),
+                }
             }
         };
         self.topology.curves.push(shape);
@@ -351,7 +386,10 @@ impl Builder<'_> {
             Source::Crossing(at) => {
                 let (knots, points) = geometry.crossings.crossings[at].branch.spline();
                 let place = |p: &[f64; PARTS]| DVec2::new(p[3 + 2 * side], p[4 + 2 * side]);
-                PlaneCurve::Computed { knots, points: points.iter().map(place).collect() }
+                PlaneCurve::Computed {
+                    knots,
+                    points: points.iter().map(place).collect(),
+                }
             }
             Source::Edge(_) | Source::Pole(_) => {
                 let (origin, direction) = geometry.on_sheet(source, side, 0.0);
@@ -383,7 +421,9 @@ fn plane(sheet: &Sheet) -> Option<[DVec3; 3]> {
 fn samples(sheet: &Sheet, face: &TracedFace) -> Vec<FaceSample> {
     let outer = &face.polygons[0];
     let low = outer.iter().fold(f64::INFINITY, |low, p| low.min(p.y));
-    let high = outer.iter().fold(f64::NEG_INFINITY, |high, p| high.max(p.y));
+    let high = outer
+        .iter()
+        .fold(f64::NEG_INFINITY, |high, p| high.max(p.y));
     let mut found = Vec::new();
     for part in [0.381_966, 0.723_607] {
         let y = low + part * (high - low);

@@ -55,9 +55,7 @@ impl Geometry<'_> {
     pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
         match source {
             Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).0,
-            Source::Crossing(at) => {
-                hermite::space(&self.crossings.crossings[at].branch.value(t))
-            }
+            Source::Crossing(at) => hermite::space(&self.crossings.crossings[at].branch.value(t)),
             Source::Pole(at) => self.regions.poles[at].point,
         }
     }
@@ -117,7 +115,11 @@ impl Geometry<'_> {
                 let lengths = &self.crossings.crossings[at].branch.lengths;
                 lengths[1..lengths.len() - 1].to_vec()
             }
-            Source::Pole(_) => Vec::new(),
+            Source::Pole(at) => {
+                let pole = &self.regions.poles[at];
+                let knots = &self.regions.sheets[pole.sheet].knots[1 - pole.border.axis()];
+                knots[1..knots.len() - 1].to_vec()
+            }
         }
     }
 }
@@ -169,8 +171,13 @@ impl Tracks {
             let (start, end) = edge.curve.domain();
             let mut cuts = Vec::new();
             for t in [start, end] {
-                let vertex = self.corner(&mut corners, edge.region, edge.curve.point(t), tolerances);
-                cuts.push(Cut { t, vertex, region: None });
+                let vertex =
+                    self.corner(&mut corners, edge.region, edge.curve.point(t), tolerances);
+                cuts.push(Cut {
+                    t,
+                    vertex,
+                    region: None,
+                });
             }
             self.tracks.push(Track {
                 source: Source::Edge(index),
@@ -206,22 +213,30 @@ impl Tracks {
         for (index, pole) in regions.poles.iter().enumerate() {
             let sheet = &regions.sheets[pole.sheet];
             let near = 10.0 * tolerances.same;
-            let ends = self.tracks.iter().zip(&regions.edges).filter_map(|(track, edge)| {
-                if edge.region != sheet.region {
-                    return None;
-                }
-                let (start, end) = edge.curve.domain();
-                let cut = track.cuts.iter().find(|cut| {
-                    (cut.t == start || cut.t == end)
-                        && self.points[cut.vertex].distance(pole.point) <= near
+            let ends = self
+                .tracks
+                .iter()
+                .zip(&regions.edges)
+                .filter_map(|(track, edge)| {
+                    if edge.region != sheet.region {
+                        return None;
+                    }
+                    let (start, end) = edge.curve.domain();
+                    let cut = track.cuts.iter().find(|cut| {
+                        (cut.t == start || cut.t == end)
+                            && self.points[cut.vertex].distance(pole.point) <= near
+                    });
+                    cut.map(|cut| cut.vertex)
                 });
-                cut.map(|cut| cut.vertex)
-            });
             let Some(vertex) = ends.into_iter().next() else {
                 continue;
             };
             let running = 1 - pole.border.axis();
-            let cut = |t: f64| Cut { t, vertex, region: None };
+            let cut = |t: f64| Cut {
+                t,
+                vertex,
+                region: None,
+            };
             self.tracks.push(Track {
                 source: Source::Pole(index),
                 sheets: [pole.sheet; 2],
@@ -237,7 +252,11 @@ impl Tracks {
             let mut cuts = Vec::new();
             if branch.is_closed() {
                 let vertex = self.vertex(branch.nodes[0].point());
-                cuts.extend([0.0, length].map(|t| Cut { t, vertex, region: None }));
+                cuts.extend([0.0, length].map(|t| Cut {
+                    t,
+                    vertex,
+                    region: None,
+                }));
             } else {
                 for (end, t, node) in [
                     (branch.ends[0], 0.0, 0),
@@ -247,7 +266,11 @@ impl Tracks {
                         End::AtRoot(root) => roots[root],
                         _ => self.vertex(branch.nodes[node].point()),
                     };
-                    cuts.push(Cut { t, vertex, region: None });
+                    cuts.push(Cut {
+                        t,
+                        vertex,
+                        region: None,
+                    });
                 }
             }
             self.tracks.push(Track {
@@ -285,13 +308,19 @@ impl Tracks {
                 let near = |index: &usize| {
                     crossings.triples[*index].point.distance(point) <= 10.0 * tolerances.same
                 };
-                let (group, rest): (Vec<usize>, Vec<usize>) = left.iter().partition(|index| near(index));
+                let (group, rest): (Vec<usize>, Vec<usize>) =
+                    left.iter().partition(|index| near(index));
                 left = rest;
                 let vertex = self.vertex(point);
                 let mut pairs = Vec::new();
                 for index in group {
                     let triple = &crossings.triples[index];
-                    self.cut(first + triple.crossing, triple.t, vertex, regions.sheets[triple.sheet].region);
+                    self.cut(
+                        first + triple.crossing,
+                        triple.t,
+                        vertex,
+                        regions.sheets[triple.sheet].region,
+                    );
                     pairs.push(crossings.crossings[triple.crossing].sheets);
                 }
                 let all = [[key[0], key[1]], [key[0], key[2]], [key[1], key[2]]];

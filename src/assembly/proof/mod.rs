@@ -280,7 +280,7 @@ impl Prover<'_> {
 
     /// The kernel's integrals give the same volumes.
     fn kernel_volumes(&self) -> Result<Check, ProofError> {
-        let measured = Measured::of_solids(self.solids, self.plan)?;
+        let measured = Measured::finely(self.solids, self.plan)?;
         let of_solid = |of: &Measured| {
             let mut sizes: Vec<(usize, usize, f64)> = of
                 .pieces
@@ -297,10 +297,10 @@ impl Prover<'_> {
             .map(|(a, b)| {
                 let area = 6.0 * a.2.abs().powf(2.0 / 3.0);
                 let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * area;
-                ((a.2 - b.2).abs() / bound, a.1)
+                ((a.2 - b.2).abs() / bound, a.1, a.2, b.2)
             })
             .max_by(|a, b| a.0.total_cmp(&b.0))
-            .unwrap_or((0.0, 0));
+            .unwrap_or((0.0, 0, 0.0, 0.0));
         Ok(Check {
             name: "volumes agree with the kernel's integrals (miss / bound)",
             measured: if ours.len() == theirs.len() {
@@ -309,7 +309,13 @@ impl Prover<'_> {
                 f64::INFINITY
             },
             bound: 1.0,
-            detail: format!("{} solids, worst {}", ours.len(), self.name(worst.1)),
+            detail: format!(
+                "{} solids, worst {}: {} m³ here, {} m³ there",
+                ours.len(),
+                self.name(worst.1),
+                worst.2,
+                worst.3
+            ),
         })
     }
 
