@@ -12,7 +12,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use clinothem::assembly::{self, Assembly, Cancel, Options, proof, worker};
+use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof, worker};
 use clinothem::export::report::{Parts, Report};
 use clinothem::model::owner::Owners;
 use clinothem::model::plan::AssemblyPlan;
@@ -39,6 +39,7 @@ impl Built {
         let owners = Owners::new(&realisation, &model.domain).unwrap();
         let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
         let options = Options {
+            engine: Engine::Auto,
             child: Some(worker::Child {
                 program: PathBuf::from(env!("CARGO_BIN_EXE_clinothem")),
                 time_limit: Duration::from_secs(600),

@@ -205,7 +205,8 @@ std::unique_ptr<ClassifierHandle> new_classifier(const ShapeHandle& shape) {
   return std::make_unique<ClassifierHandle>(shape.shape);
 }
 
-ClassifierHandle::ClassifierHandle(const TopoDS_Shape& solid) : classifier(solid), context(new IntTools_Context) {
+ClassifierHandle::ClassifierHandle(const TopoDS_Shape& solid) : context(new IntTools_Context) {
+  rays.Load(solid, Precision::Confusion());
   for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next()) {
     Bnd_Box box;
     BRepBndLib::Add(it.Current(), box, Standard_False);
@@ -215,19 +216,27 @@ ClassifierHandle::ClassifierHandle(const TopoDS_Shape& solid) : classifier(solid
 
 std::uint8_t ClassifierHandle::classify(std::array<double, 3> point, double tolerance) {
   const gp_Pnt p(point[0], point[1], point[2]);
-  // The kernel's classifier says "in" of some points that are exactly on a face, so the faces are asked first.
   for (const auto& face : faces) {
     Bnd_Box box = face.second;
     box.Enlarge(tolerance);
     if (!box.IsOut(p) && context->IsValidPointForFace(p, face.first, tolerance)) return 2;
   }
-  classifier.Perform(p, tolerance);
-  switch (classifier.State()) {
-    case TopAbs_IN: return 0;
-    case TopAbs_OUT: return 1;
-    case TopAbs_ON: return 2;
-    default: throw Refused("the point could not be classified");
+  // BRepClass3d_SolidClassifier says "out" of some points deep inside solids with trimmed spline faces, while every line through
+  // them enters and leaves as it should. So rays vote, askew so that they meet edges only by accident.
+  const gp_Dir directions[] = {gp_Dir(0.0137, 0.0291, 1.0), gp_Dir(1.0, 0.3719, 0.1173), gp_Dir(-0.4127, 1.0, -0.2311)};
+  int inside = 0;
+  for (const gp_Dir& direction : directions) {
+    rays.Perform(gp_Lin(p, direction), 0.0, RealLast());
+    if (!rays.IsDone()) throw Refused("the point could not be classified");
+    std::vector<double> crossings;
+    for (int i = 1; i <= rays.NbPnt(); ++i) crossings.push_back(rays.WParameter(i));
+    std::sort(crossings.begin(), crossings.end());
+    // A ray through an edge meets both faces there.
+    const auto same = [](double a, double b) { return b - a < Precision::Confusion(); };
+    crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
+    inside += static_cast<int>(crossings.size() % 2);
   }
+  return inside >= 2 ? 0 : 1;
 }
 
 }  // namespace clinothem::occt

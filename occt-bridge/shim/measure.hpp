@@ -3,8 +3,8 @@
 
 #include "occt-bridge/shim/shape.hpp"
 
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <Bnd_Box.hxx>
+#include <IntCurvesFace_ShapeIntersector.hxx>
 #include <IntTools_Context.hxx>
 #include <gp_Pnt.hxx>
 
@@ -36,7 +36,7 @@ rust::Vec<FaceSampleData> sample_faces(const SolidsHandle& solids, std::size_t p
 
 struct ClassifierHandle {
   explicit ClassifierHandle(const TopoDS_Shape& solid);
-  BRepClass3d_SolidClassifier classifier;
+  IntCurvesFace_ShapeIntersector rays;
   std::vector<std::pair<TopoDS_Face, Bnd_Box>> faces;
   Handle(IntTools_Context) context;
   // 0 in, 1 out, 2 on

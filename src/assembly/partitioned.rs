@@ -13,10 +13,13 @@ use super::measure::{Counts, Measured};
 use super::proof::{Check, Evidence};
 use super::shapes::{self, EXACT};
 use super::{AssemblyError, Engine, Failed, Options};
-use crate::features::body::Body;
+use crate::features::body::{Body, Role, Trough};
 use crate::model::owner::Owners;
 use crate::model::plan::{AssemblyPlan, PlannedShell};
-use crate::nurbs;
+use crate::nurbs::{
+    self,
+    enclosure::{Enclosure, EnclosureError},
+};
 use crate::partition::{
     self, CurveShape, Partition, PartitionError, PlaneCurve, Region, SheetShape, Topology,
 };
@@ -102,6 +105,8 @@ enum Trouble {
     Cut(#[from] crate::features::body::TroughError),
     #[error("the ends of a body cannot be closed: {0}")]
     Ends(#[from] nurbs::SurfaceError),
+    #[error("a raised body is not closed: {0}")]
+    Raised(#[from] EnclosureError),
     #[error("no threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -136,38 +141,43 @@ fn partition(
     Ok(pool.install(|| partition::partition(regions, &labels, &settings))?)
 }
 
-/// A shell as far as it matters for the domain. Level tops that coincide with others are raised, to be cut by lids.
+/// A shell as far as it matters for the domain. A level top that coincides with others is left out: the banks are
+/// raised above it, and a lid, or the domain's top, cuts them.
 fn region(
     plan: &AssemblyPlan,
     owners: &Owners,
     index: usize,
     shell: &PlannedShell,
 ) -> Result<Region, Trouble> {
-    let block = [plan.low, plan.high];
-    let surfaces =
-        |trough: &crate::features::body::Trough| -> Result<Vec<nurbs::Surface>, Trouble> {
-            let [first, last] = shapes::ends(trough, block, OVERSHOOT);
-            let near = trough.between(first, last)?;
-            Ok(near.sheets()?.into_iter().map(|sheet| sheet.1).collect())
-        };
-    match (&shell.flush, &shell.body) {
-        (Some(flush), _) => Ok(Region::Shell(surfaces(&flush.raised)?)),
-        (None, body) => {
-            let surfaces = match body {
-                Body::Trough(trough) => surfaces(trough)?,
-                Body::Ellipsoid(_) => body.sheets()?.into_iter().map(|sheet| sheet.1).collect(),
-            };
-            // The point evaluator has the whole shell: within the domain they are the same.
-            let whole = plan.bodies.iter().find(|body| body.shell == index);
-            Ok(match whole {
-                Some(body) => Region::PartOf {
-                    surfaces,
-                    shell: Arc::clone(owners.shell(body.volume)),
-                },
-                None => Region::Shell(surfaces),
-            })
-        }
+    let near = |trough: &Trough| -> Result<Vec<(Role, nurbs::Surface)>, Trouble> {
+        let [first, last] = shapes::ends(trough, [plan.low, plan.high], OVERSHOOT);
+        Ok(trough.between(first, last)?.sheets()?)
+    };
+    let only = |sheets: Vec<(Role, nurbs::Surface)>, without: Option<Role>| {
+        let kept = sheets.into_iter().filter(|sheet| Some(sheet.0) != without);
+        kept.map(|sheet| sheet.1).collect::<Vec<_>>()
+    };
+    if let Some(flush) = &shell.flush {
+        let sheets = near(&flush.raised)?;
+        let whole = Enclosure::new(only(sheets.clone(), None))?;
+        return Ok(Region::PartOf {
+            surfaces: only(sheets, Some(Role::Top)),
+            shell: Arc::new(whole),
+        });
     }
+    let surfaces = match &shell.body {
+        Body::Trough(trough) => only(near(trough)?, None),
+        Body::Ellipsoid(_) => only(shell.body.sheets()?, None),
+    };
+    // The point evaluator has the whole shell: within the domain they are the same.
+    let whole = plan.bodies.iter().find(|body| body.shell == index);
+    Ok(match whole {
+        Some(body) => Region::PartOf {
+            surfaces,
+            shell: Arc::clone(owners.shell(body.volume)),
+        },
+        None => Region::Shell(surfaces),
+    })
 }
 
 fn finish(

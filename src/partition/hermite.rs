@@ -183,17 +183,24 @@ impl Branch {
         best
     }
 
-    /// The same curve as flat knots and control points: C2, knots of multiplicity 3.
-    pub(super) fn spline(&self) -> (Vec<f64>, Vec<[f64; PARTS]>) {
-        let last = self.nodes.len() - 1;
-        let mut knots = vec![0.0; 6];
-        for length in &self.lengths[1..last] {
+    /// The pieces that hold a range of parameters, as flat knots and control points: C2, knots of multiplicity 3.
+    pub(super) fn spline(&self, range: [f64; 2]) -> (Vec<f64>, Vec<[f64; PARTS]>) {
+        let first = self.locate(range[0]).0;
+        let end = self.locate(range[1]).0 + 1;
+        // A range that ends at a node needs no piece beyond it.
+        let last = if end - 1 > first && self.lengths[end - 1] >= range[1] {
+            end - 1
+        } else {
+            end
+        };
+        let mut knots = vec![self.lengths[first]; 6];
+        for length in &self.lengths[first + 1..last] {
             knots.extend([*length; 3]);
         }
         knots.extend([self.lengths[last]; 6]);
-        let mut points = Vec::with_capacity(3 * self.nodes.len());
-        for (i, node) in self.nodes.iter().enumerate() {
-            let back = if i > 0 {
+        let mut points = Vec::with_capacity(3 * (last + 1 - first));
+        for i in first..=last {
+            let back = if i > first {
                 self.lengths[i - 1] - self.lengths[i]
             } else {
                 0.0
@@ -204,7 +211,7 @@ impl Branch {
                 0.0
             };
             // Blossoms of the node's Taylor polynomial at the knots around it.
-            let arguments = if i == 0 {
+            let arguments = if i == first {
                 [
                     [0.0; 5],
                     [0.0, 0.0, 0.0, 0.0, ahead],
@@ -223,7 +230,7 @@ impl Branch {
                     [0.0, 0.0, 0.0, ahead, ahead],
                 ]
             };
-            points.extend(arguments.map(|at| blossom(node, at)));
+            points.extend(arguments.map(|at| blossom(&self.nodes[i], at)));
         }
         (knots, points)
     }

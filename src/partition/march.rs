@@ -141,7 +141,8 @@ impl March<'_> {
                     }
                     let wanted = self.clip.holds(node.point());
                     if let Some((side, border)) = border {
-                        run.end = if wanted {
+                        let is_open = self.pair.sheets[side].open.contains(&border);
+                        run.end = if wanted && !is_open {
                             End::AtBorder(side, border)
                         } else {
                             End::Outside

@@ -17,9 +17,10 @@ use crate::nurbs::{Curve, KnotVector, Surface};
 pub enum Region {
     /// The inside of a closed shell. Its surfaces join along whole sides.
     Shell(Vec<Surface>),
-    /// The same, for a part of a shell that is whole within the domain.
+    /// The inside of a shell of which only some surfaces, or parts of them, matter within the domain.
     PartOf {
-        /// The part's own closed shell.
+        /// Those. Sides that join no other are left open: nothing may be labelled differently on both sides of a
+        /// surface there.
         surfaces: Vec<Surface>,
         /// The whole.
         shell: Arc<Enclosure>,
@@ -117,6 +118,8 @@ const CLOSURE: f64 = 1e-9;
 struct Made {
     sheets: Vec<Surface>,
     inside: Inside,
+    /// Whether sides may join no other.
+    may_be_open: bool,
 }
 
 impl Regions {
@@ -142,11 +145,10 @@ impl Regions {
             bounds: Vec::new(),
             domain,
         };
-        let mut open = Vec::new();
+        let mut own = Vec::new();
         for (index, region) in made.into_iter().enumerate() {
             let first = all.sheets.len();
             let mut bounds = Bounds::EMPTY;
-            let is_open = matches!(region.inside, Inside::Above(_));
             for surface in region.sheets {
                 let degrees = [surface.knots_u().degree(), surface.knots_v().degree()];
                 let sheet = Sheet::new(surface, index).ok_or(PartitionError::Degree {
@@ -158,19 +160,30 @@ impl Regions {
             }
             all.inside.push(region.inside);
             all.bounds.push(bounds);
-            if !is_open {
-                open.push((index, first..all.sheets.len()));
-            }
+            own.push((first..all.sheets.len(), region.may_be_open));
         }
-        for (index, own) in open {
-            all.join(index, own)?;
+        for (index, (own, may_be_open)) in own.into_iter().enumerate() {
+            let open = all.join(index, own);
+            match open.first() {
+                Some((_, _, curve)) if !may_be_open => {
+                    return Err(PartitionError::Open {
+                        region: index,
+                        from: curve.points()[0],
+                        to: curve.points()[curve.points().len() - 1],
+                    });
+                }
+                _ => {}
+            }
+            for (sheet, border, _) in open {
+                all.sheets[sheet].open.push(border);
+            }
         }
         all.orient()?;
         Ok(all)
     }
 
-    /// Pairs the sides of a region's sheets.
-    fn join(&mut self, region: usize, own: std::ops::Range<usize>) -> Result<(), PartitionError> {
+    /// Pairs the sides of a region's sheets; what is left over is open.
+    fn join(&mut self, region: usize, own: std::ops::Range<usize>) -> Vec<(usize, Border, Curve)> {
         let tolerance = CLOSURE * self.bounds[region].diagonal();
         let mut open: Vec<(usize, Border, Curve)> = Vec::new();
         for sheet in own {
@@ -227,14 +240,7 @@ impl Regions {
                 }
             }
         }
-        match open.first() {
-            None => Ok(()),
-            Some((_, _, curve)) => Err(PartitionError::Open {
-                region,
-                from: curve.points()[0],
-                to: curve.points()[curve.points().len() - 1],
-            }),
-        }
+        open
     }
 
     /// Finds out on which side of each sheet its region lies: for one sheet of each region by points beside it,
@@ -301,11 +307,13 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
             Ok(Made {
                 sheets,
                 inside: Inside::Shell(Arc::new(shell)),
+                may_be_open: false,
             })
         }
         Region::PartOf { surfaces, shell } => Ok(Made {
             sheets: surfaces,
             inside: Inside::Shell(shell),
+            may_be_open: true,
         }),
         Region::Block { low, high } => {
             let corner = |i: usize| {
@@ -333,6 +341,7 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
             Ok(Made {
                 sheets,
                 inside: Inside::Block(low, high),
+                may_be_open: false,
             })
         }
         Region::Above(level) => {
@@ -353,6 +362,7 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
             Ok(Made {
                 sheets: vec![sheet],
                 inside: Inside::Above(level),
+                may_be_open: true,
             })
         }
     }

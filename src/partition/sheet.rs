@@ -14,6 +14,8 @@ pub(super) struct Sheet {
     pub(super) region: usize,
     /// 1 if `S_u × S_v` points out of the region, −1 if it points in.
     pub(super) outward: f64,
+    /// Borders that join no other sheet: where curves end there, nobody asks.
+    pub(super) open: Vec<Border>,
     /// Distinct knots.
     pub(super) knots: [Vec<f64>; 2],
     /// u-major.
@@ -91,6 +93,7 @@ impl Sheet {
             surface,
             region,
             outward: 1.0,
+            open: Vec::new(),
             knots,
             patches,
             tree: Vec::new(),

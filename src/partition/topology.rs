@@ -4,8 +4,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Label;
-use super::faces::{Face as TracedFace, encloses};
-use super::hermite::PARTS;
+use super::faces::{Face as TracedFace, HalfEdge, encloses};
+use super::hermite::{PARTS, on_sheet};
 use super::quadrature::Integral;
 use super::sheet::Sheet;
 use super::solids::{Parts, Solid as JoinedSolid};
@@ -84,7 +84,7 @@ pub struct Edge {
     pub ends: [usize; 2],
     /// Farthest of the curve from its surfaces, measured (m).
     pub deviation: f64,
-    /// Where it runs on surfaces that are not planes.
+    /// Where it runs on the surfaces of faces beside it that are not planes.
     pub on: Vec<OnSheet>,
 }
 
@@ -156,19 +156,22 @@ const FLAT: f64 = 1e-10;
 
 impl Topology {
     pub(super) fn new(parts: &Parts<'_>, solids: Vec<JoinedSolid>) -> Self {
+        let surfaces: Vec<SheetShape> = parts
+            .faces
+            .par_iter()
+            .map(|face| shape(parts, face))
+            .collect();
         let mut builder = Builder {
             parts,
             topology: Self::default(),
-            sheets: vec![None; parts.geometry.regions.sheets.len()],
-            curves: vec![None; parts.tracks.tracks.len()],
-            images: vec![[None; 2]; parts.tracks.tracks.len()],
+            planes: vec![None; parts.geometry.regions.sheets.len()],
             vertices: vec![None; parts.tracks.points.len()],
             edges: vec![None; parts.arcs.len()],
+            images: vec![[None; 2]; parts.arcs.len()],
         };
-        for (face, integral) in parts.faces.iter().zip(parts.integrals) {
-            builder.face(face, *integral);
+        for ((face, integral), surface) in parts.faces.iter().zip(parts.integrals).zip(surfaces) {
+            builder.face(face, *integral, surface);
         }
-        builder.edges();
         let samples: Vec<Vec<FaceSample>> = parts
             .faces
             .par_iter()
@@ -213,33 +216,25 @@ impl Topology {
 struct Builder<'a> {
     parts: &'a Parts<'a>,
     topology: Topology,
-    sheets: Vec<Option<usize>>,
-    curves: Vec<Option<usize>>,
-    images: Vec<[Option<usize>; 2]>,
+    /// Flat sheets serve all of their faces.
+    planes: Vec<Option<usize>>,
     vertices: Vec<Option<usize>>,
     edges: Vec<Option<usize>>,
+    /// By arc and side.
+    images: Vec<[Option<usize>; 2]>,
 }
 
 impl Builder<'_> {
-    fn sheet(&mut self, at: usize) -> usize {
-        if let Some(known) = self.sheets[at] {
+    fn sheet(&mut self, at: usize, shape: SheetShape) -> usize {
+        if let Some(known) = self.planes[at] {
             return known;
         }
-        let all = &self.parts.geometry.regions.sheets;
-        let sheet = &all[at];
-        let first = all
-            .iter()
-            .position(|other| other.region == sheet.region)
-            .unwrap_or(at);
-        self.topology.sheets.push(SheetShape {
-            region: sheet.region,
-            place: at - first,
-            looks_out: sheet.outward > 0.0,
-            surface: sheet.surface.clone(),
-            plane: plane(sheet),
-        });
+        let is_plane = shape.plane.is_some();
+        self.topology.sheets.push(shape);
         let made = self.topology.sheets.len() - 1;
-        self.sheets[at] = Some(made);
+        if is_plane {
+            self.planes[at] = Some(made);
+        }
         made
     }
 
@@ -254,10 +249,9 @@ impl Builder<'_> {
         made
     }
 
-    fn face(&mut self, face: &TracedFace, integral: Integral) {
-        let sheet = self.sheet(face.sheet);
-        let is_plane = self.topology.sheets[sheet].plane.is_some();
-        let looks_out = self.topology.sheets[sheet].looks_out;
+    fn face(&mut self, face: &TracedFace, integral: Integral, shape: SheetShape) {
+        let (is_plane, looks_out) = (shape.plane.is_some(), shape.looks_out);
+        let sheet = self.sheet(face.sheet, shape);
         let mut loops = Vec::with_capacity(face.loops.len());
         for own in &face.loops {
             let mut uses = Vec::with_capacity(own.len());
@@ -267,7 +261,11 @@ impl Builder<'_> {
                 if is_pole && is_plane {
                     continue;
                 }
-                uses.push((self.edge(half.arc), !half.forward));
+                let edge = self.edge(half.arc);
+                uses.push((edge, !half.forward));
+                if !is_plane {
+                    self.place(edge, sheet, half);
+                }
             }
             loops.push(uses);
         }
@@ -290,25 +288,34 @@ impl Builder<'_> {
             return known;
         }
         let arc = &self.parts.arcs[at];
-        let track = &self.parts.tracks.tracks[arc.track];
-        let curve = self.curve(arc.track);
-        let ends = arc.vertices.map(|vertex| self.vertex(vertex));
-        let deviation = match track.source {
+        let geometry = self.parts.geometry;
+        let source = self.parts.tracks.tracks[arc.track].source;
+        let mut deviation = 0.0;
+        let curve = match source {
+            Source::Pole(_) => None,
+            Source::Edge(edge) => Some(CurveShape::Known(part(
+                &geometry.regions.edges[edge].curve,
+                arc.t,
+            ))),
             Source::Crossing(index) => {
-                self.parts.geometry.crossings.crossings[index]
-                    .branch
-                    .deviation
+                let branch = &geometry.crossings.crossings[index].branch;
+                deviation = branch.deviation;
+                let (knots, points) = branch.spline(arc.t);
+                let place = |p: &[f64; PARTS]| DVec3::new(p[0], p[1], p[2]);
+                let points = points.iter().map(place).collect();
+                Some(CurveShape::Computed { knots, points })
             }
-            Source::Edge(_) | Source::Pole(_) => 0.0,
         };
+        let curve = curve.map(|curve| {
+            self.topology.curves.push(curve);
+            self.topology.curves.len() - 1
+        });
+        let ends = arc.vertices.map(|vertex| self.vertex(vertex));
         for (end, t) in ends.iter().zip(arc.t) {
-            let gap = self
-                .parts
-                .geometry
-                .point(track.source, t)
-                .distance(self.topology.vertices[*end].point);
             let vertex = &mut self.topology.vertices[*end];
-            vertex.gap = vertex.gap.max(gap);
+            vertex.gap = vertex
+                .gap
+                .max(geometry.point(source, t).distance(vertex.point));
         }
         self.topology.edges.push(Edge {
             curve,
@@ -322,74 +329,39 @@ impl Builder<'_> {
         made
     }
 
-    /// Where edges run on the sheets of the faces beside them.
-    fn edges(&mut self) {
-        for (at, arc) in self.parts.arcs.iter().enumerate() {
-            let Some(edge) = self.edges[at] else { continue };
-            let sheets = self.parts.tracks.tracks[arc.track].sheets;
-            for flap in &arc.flaps {
-                let Some(sheet) = self.sheets[sheets[flap.side]] else {
-                    continue;
-                };
-                if self.topology.sheets[sheet].plane.is_some() {
-                    continue;
-                }
-                let image = self.image(arc.track, flap.side);
-                let on = &mut self.topology.edges[edge].on;
-                match on.iter_mut().find(|one| one.sheet == sheet) {
-                    None => on.push(OnSheet {
-                        sheet,
-                        forward: image,
-                        reversed: None,
-                    }),
-                    Some(other) if other.forward == image => {}
-                    // A seam: the left side is run along forwards.
-                    Some(other) if flap.left => {
-                        other.reversed = Some(other.forward);
-                        other.forward = image;
-                    }
-                    Some(other) => other.reversed = Some(image),
-                }
+    /// Where an edge runs on the surface of a face beside it.
+    fn place(&mut self, edge: usize, sheet: usize, half: &HalfEdge) {
+        let image = self.image(half.arc, half.side);
+        let on = &mut self.topology.edges[edge].on;
+        match on.iter_mut().find(|one| one.sheet == sheet) {
+            None => on.push(OnSheet {
+                sheet,
+                forward: image,
+                reversed: None,
+            }),
+            Some(other) if other.forward == image => {}
+            // A seam within one face.
+            Some(other) if half.forward => {
+                other.reversed = Some(other.forward);
+                other.forward = image;
             }
+            Some(other) => other.reversed = Some(image),
         }
     }
 
-    fn curve(&mut self, track: usize) -> Option<usize> {
-        if let Some(known) = self.curves[track] {
-            return Some(known);
-        }
-        let geometry = self.parts.geometry;
-        let shape = match self.parts.tracks.tracks[track].source {
-            Source::Pole(_) => return None,
-            Source::Edge(edge) => CurveShape::Known(geometry.regions.edges[edge].curve.clone()),
-            Source::Crossing(at) => {
-                let (knots, points) = geometry.crossings.crossings[at].branch.spline();
-                let place = |p: &[f64; PARTS]| DVec3::new(p[0], p[1], p[2]);
-                CurveShape::Computed {
-                    knots,
-                    points: points.iter().map(place).collect(),
-                }
-            }
-        };
-        self.topology.curves.push(shape);
-        self.curves[track] = Some(self.topology.curves.len() - 1);
-        self.curves[track]
-    }
-
-    fn image(&mut self, track: usize, side: usize) -> usize {
-        if let Some(known) = self.images[track][side] {
+    fn image(&mut self, at: usize, side: usize) -> usize {
+        if let Some(known) = self.images[at][side] {
             return known;
         }
         let geometry = self.parts.geometry;
-        let source = self.parts.tracks.tracks[track].source;
+        let arc = &self.parts.arcs[at];
+        let source = self.parts.tracks.tracks[arc.track].source;
         let image = match source {
-            Source::Crossing(at) => {
-                let (knots, points) = geometry.crossings.crossings[at].branch.spline();
+            Source::Crossing(index) => {
+                let (knots, points) = geometry.crossings.crossings[index].branch.spline(arc.t);
                 let place = |p: &[f64; PARTS]| DVec2::new(p[3 + 2 * side], p[4 + 2 * side]);
-                PlaneCurve::Computed {
-                    knots,
-                    points: points.iter().map(place).collect(),
-                }
+                let points = points.iter().map(place).collect();
+                PlaneCurve::Computed { knots, points }
             }
             Source::Edge(_) | Source::Pole(_) => {
                 let (origin, direction) = geometry.on_sheet(source, side, 0.0);
@@ -398,8 +370,75 @@ impl Builder<'_> {
         };
         self.topology.plane_curves.push(image);
         let made = self.topology.plane_curves.len() - 1;
-        self.images[track][side] = Some(made);
+        self.images[at][side] = Some(made);
         made
+    }
+}
+
+/// The distinct knots around a range of parameters.
+fn around(knots: &[f64], [low, high]: [f64; 2]) -> [f64; 2] {
+    let inner = &knots[1..knots.len() - 1];
+    let from = inner.partition_point(|knot| *knot <= low);
+    let to = inner.partition_point(|knot| *knot < high);
+    [knots[from], knots[to + 1]]
+}
+
+/// The spans of a curve that hold a range of its parameters: readers get no more than an edge needs.
+fn part(curve: &Curve, range: [f64; 2]) -> Curve {
+    let knots: Vec<f64> = curve.knots().distinct().iter().map(|knot| knot.0).collect();
+    let [from, to] = around(&knots, range);
+    // A split at an inner knot cannot fail; if it did, the whole curve serves as well.
+    let after = curve
+        .split(from)
+        .map_or_else(|_| curve.clone(), |halves| halves.1);
+    after.split(to).map_or(after, |halves| halves.0)
+}
+
+/// The parameters that a face's outer loop stays within, by the control points of its curves.
+fn extent(parts: &Parts<'_>, face: &TracedFace) -> [DVec2; 2] {
+    let mut places = face.polygons[0].clone();
+    for half in &face.loops[0] {
+        let arc = &parts.arcs[half.arc];
+        if let Source::Crossing(at) = parts.tracks.tracks[arc.track].source {
+            let branch = &parts.geometry.crossings.crossings[at].branch;
+            let (_, points) = branch.spline(arc.t);
+            places.extend(points.iter().map(|point| on_sheet(point, half.side)));
+        }
+    }
+    let low = places.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
+    let high = places
+        .iter()
+        .fold(DVec2::NEG_INFINITY, |high, p| high.max(*p));
+    [low, high]
+}
+
+/// The spans of a face's sheet that hold the face, or its plane.
+fn shape(parts: &Parts<'_>, face: &TracedFace) -> SheetShape {
+    let sheets = &parts.geometry.regions.sheets;
+    let sheet = &sheets[face.sheet];
+    let first = sheets
+        .iter()
+        .position(|other| other.region == sheet.region)
+        .unwrap_or(face.sheet);
+    let plane = plane(sheet);
+    let surface = if plane.is_some() {
+        sheet.surface.clone()
+    } else {
+        let [low, high] = extent(parts, face);
+        let range = |axis: usize| around(&sheet.knots[axis], [low[axis], high[axis]]);
+        let ([u0, u1], [v0, v1]) = (range(0), range(1));
+        let mut part = sheet.surface.clone();
+        part = part.split_v(v0).map_or(part, |halves| halves.1);
+        part = part.split_v(v1).map_or(part, |halves| halves.0);
+        part = part.split_u(u0).map_or(part, |halves| halves.1);
+        part.split_u(u1).map_or(part, |halves| halves.0)
+    };
+    SheetShape {
+        region: sheet.region,
+        place: face.sheet - first,
+        looks_out: sheet.outward > 0.0,
+        surface,
+        plane,
     }
 }
 
