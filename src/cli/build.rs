@@ -32,7 +32,7 @@ pub(super) struct Args {
     /// Write into a folder that holds other things than a build's results.
     #[arg(long)]
     force: bool,
-    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep.
+    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; none for tables only.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
     formats: Vec<Format>,
     /// The application protocol that STEP files declare.
@@ -91,6 +91,7 @@ enum Format {
     Step,
     StepShared,
     Brep,
+    None,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -327,6 +328,7 @@ impl Output<'_> {
         let mut names = Vec::new();
         for format in &self.formats(built) {
             let name = match format {
+                Format::None => continue,
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
                 Format::Brep => format!("{}.brep", self.stem),
@@ -343,6 +345,7 @@ impl Output<'_> {
                     step::write_shared(&path, model, realisation, &built.assembly, protocol)
                 }
                 Format::Brep => brep::write(&path, &built.assembly),
+                Format::None => Ok(()),
             }
             .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
             names.push(name);

@@ -128,14 +128,7 @@ fn of_face(
             Source::Crossing(_) => PIECE,
             Source::Edge(_) | Source::Pole(_) => across.along,
         };
-        let breaks = geometry.breaks(source);
-        let inner = breaks
-            .into_iter()
-            .filter(|t| *t > arc.t[0] && *t < arc.t[1]);
-        let stops: Vec<f64> = std::iter::once(arc.t[0])
-            .chain(inner)
-            .chain([arc.t[1]])
-            .collect();
+        let stops = across.stops(geometry, source, half.side, arc.t);
         for pair in stops.windows(2) {
             let own = integrate(outer_rule, pair[0], pair[1], |t| {
                 let (at, speed) = geometry.on_sheet(source, half.side, t);
@@ -204,6 +197,42 @@ impl<'a> Across<'a> {
             rule: rule(degrees[axis], rational),
             along: rule(degrees[1 - axis], rational),
         }
+    }
+
+    /// Where the integrand along an arc is not smooth: the curve's own pieces, and knots that it passes.
+    fn stops(&self, geometry: Geometry<'_>, source: Source, side: usize, t: [f64; 2]) -> Vec<f64> {
+        let breaks = geometry.breaks(source);
+        let inner = breaks.into_iter().filter(|x| *x > t[0] && *x < t[1]);
+        let mut stops: Vec<f64> = std::iter::once(t[0]).chain(inner).chain([t[1]]).collect();
+        let running = 1 - self.axis;
+        let knots = &self.sheet.knots[running];
+        let at = |x: f64| geometry.on_sheet(source, side, x).0[running];
+        let mut passed = Vec::new();
+        let mut from = at(stops[0]);
+        for pair in stops.windows(2) {
+            let to = at(pair[1]);
+            let slack = 1e-9 * (knots[knots.len() - 1] - knots[0]);
+            let (low, high) = (from.min(to) + slack, from.max(to) - slack);
+            let first = knots.partition_point(|knot| *knot <= low);
+            for knot in knots[first..].iter().take_while(|knot| **knot < high) {
+                let (mut before, mut after) = (pair[0], pair[1]);
+                for _ in 0..40 {
+                    let middle = f64::midpoint(before, after);
+                    if (at(middle) < *knot) == (from < to) {
+                        before = middle;
+                    } else {
+                        after = middle;
+                    }
+                }
+                passed.push(f64::midpoint(before, after));
+            }
+            from = to;
+        }
+        if !passed.is_empty() {
+            stops.extend(passed);
+            stops.sort_by(f64::total_cmp);
+        }
+        stops
     }
 
     /// The integral across, up to a place, times the speed at which a loop passes along.
