@@ -10,11 +10,12 @@
 use std::path::{Path, PathBuf};
 
 /// Each layer with the layers that it may name besides itself, lowest first.
-const LAYERS: [(&str, &[&str]); 6] = [
+const LAYERS: [(&str, &[&str]); 7] = [
     ("nurbs", &[]),
     ("features", &["nurbs"]),
     ("model", &["features", "nurbs"]),
-    ("assembly", &["model", "features", "nurbs"]),
+    ("partition", &["nurbs"]),
+    ("assembly", &["partition", "model", "features", "nurbs"]),
     ("export", &["assembly", "model", "features", "nurbs"]),
     ("cli", &["export", "assembly", "model", "features", "nurbs"]),
 ];

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Label;
-use super::faces::{Face as TracedFace, HalfEdge, encloses};
+use super::faces::{Face as TracedFace, HalfEdge};
 use super::hermite::{PARTS, on_sheet};
 use super::quadrature::Integral;
 use super::sheet::Sheet;
@@ -172,10 +172,13 @@ impl Topology {
         for ((face, integral), surface) in parts.faces.iter().zip(parts.integrals).zip(surfaces) {
             builder.face(face, *integral, surface);
         }
+        let each = SAMPLES
+            .div_ceil(parts.faces.len().max(1))
+            .max(LEAST_SAMPLES);
         let samples: Vec<Vec<FaceSample>> = parts
             .faces
             .par_iter()
-            .map(|face| samples(&parts.geometry.regions.sheets[face.sheet], face))
+            .map(|face| samples(&parts.geometry.regions.sheets[face.sheet], face, each))
             .collect();
         let mut topology = builder.topology;
         for (face, samples) in topology.faces.iter_mut().zip(samples) {
@@ -456,15 +459,22 @@ fn plane(sheet: &Sheet) -> Option<[DVec3; 3]> {
     flat.then(|| [point, normal, u.normalize()])
 }
 
-/// Points inside a face, in the widest gaps between its loops at two heights.
-fn samples(sheet: &Sheet, face: &TracedFace) -> Vec<FaceSample> {
+/// All faces together have at least about this many sample points.
+const SAMPLES: usize = 300;
+/// Fewest of a face.
+const LEAST_SAMPLES: usize = 2;
+
+/// Points inside a face: in the middle of the widest gaps between its loops at some heights.
+fn samples(sheet: &Sheet, face: &TracedFace, count: usize) -> Vec<FaceSample> {
     let outer = &face.polygons[0];
     let low = outer.iter().fold(f64::INFINITY, |low, p| low.min(p.y));
     let high = outer
         .iter()
         .fold(f64::NEG_INFINITY, |high, p| high.max(p.y));
-    let mut found = Vec::new();
-    for part in [0.381_966, 0.723_607] {
+    let mut found = Vec::with_capacity(count);
+    for k in 1..=count {
+        // Multiples of the golden ratio: spread evenly, and on no height that symmetry prefers.
+        let part = (k as f64 * 0.618_033_988_749_895).fract();
         let y = low + part * (high - low);
         let mut crossings = Vec::new();
         for polygon in &face.polygons {
@@ -481,9 +491,7 @@ fn samples(sheet: &Sheet, face: &TracedFace) -> Vec<FaceSample> {
             .chunks_exact(2)
             .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
         let Some(gap) = widest else { continue };
-        let at = DVec2::new(f64::midpoint(gap[0], gap[1]), y);
-        debug_assert!(encloses(outer, at));
-        let (point, u, v) = sheet.first_jet(at.x, at.y);
+        let (point, u, v) = sheet.first_jet(f64::midpoint(gap[0], gap[1]), y);
         if let Some(normal) = u.cross(v).try_normalize() {
             found.push(FaceSample { point, normal });
         }

@@ -96,7 +96,7 @@ fn places_that_cannot_be_written_to_are_refused_with_3_and_leave_nothing() {
 #[test]
 fn an_assembly_that_takes_too_long_is_refused_with_2_and_leaves_nothing() {
     let sandbox = Sandbox::of("channel-belt/channel-belt.toml");
-    let errors = sandbox.refusal("build model.toml --time-limit 1 -o out", 2);
+    let errors = sandbox.refusal("build model.toml --engine occt --time-limit 1 -o out", 2);
     assert!(errors.contains("longer than 1 s"), "{errors}");
     assert!(
         errors.contains("20 bodies") && errors.contains("channel-1"),
@@ -174,5 +174,5 @@ fn a_folder_that_is_not_ours_needs_force_and_keeps_what_is_in_it() {
 fn a_build_that_fails_keeps_the_results_of_the_one_before() {
     let sandbox = Sandbox::of("channel-belt/channel-belt.toml");
     sandbox.answer("build model.toml --set feature.channel.count=1 -o out");
-    sandbox.refusal("build model.toml --time-limit 1 -o out", 2);
+    sandbox.refusal("build model.toml --engine occt --time-limit 1 -o out", 2);
 }

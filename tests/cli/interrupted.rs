@@ -68,7 +68,7 @@ fn an_interrupted_build_ends_in_a_second_with_130_and_leaves_nothing() {
     for (name, whole_group) in [("INT", false), ("INT", true), ("TERM", false)] {
         let sandbox = Sandbox::of("channel-belt/channel-belt.toml");
         let before = sandbox.files();
-        let child = start(&sandbox, "build model.toml -o out");
+        let child = start(&sandbox, "build --engine occt model.toml -o out");
         wait_for_worker(&sandbox);
         let id = child.id();
         let target = if whole_group {
@@ -93,12 +93,15 @@ fn an_interrupted_build_ends_in_a_second_with_130_and_leaves_nothing() {
 #[test]
 fn whenever_a_build_is_interrupted_its_results_are_whole_or_not_there() {
     let sandbox = Sandbox::of("quickstart/quickstart.toml");
-    sandbox.answer("build model.toml --quiet -o whole");
+    sandbox.answer("build --engine occt model.toml --quiet -o whole");
     let mut stopped = 0;
     // Over the stages: reading, assembling, proving, writing, and after the end.
     for step in 0..12 {
         let out = format!("out-{step}");
-        let child = start(&sandbox, &format!("build model.toml --quiet -o {out}"));
+        let child = start(
+            &sandbox,
+            &format!("build --engine occt model.toml --quiet -o {out}"),
+        );
         std::thread::sleep(Duration::from_millis(20 + 130 * step));
         // It may have ended; then there is nobody to tell, but it is not waited for, so the id is its own.
         signal("INT", &child.id().to_string());
