@@ -8,15 +8,12 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::kernel::{BridgeError, FaceIntegral, Solids, Threads, face_integrals, solid_boxes};
-use crate::features::body::Body;
-use crate::model::plan::{AssemblyPlan, PlannedShell};
+use crate::model::plan::AssemblyPlan;
 
-/// Relative error asked of the integrals of area and flux of each face.
-/// 1e-6 is right to 1e-9 on these faces and six times faster than 1e-8.
-const EPS: f64 = 1e-6;
-/// The same where there are ellipsoids: 1e-6 of the flux of a trimmed face, seen from the middle of the
-/// domain, was 1.5e-5 of a nodule's volume. 1e-8 is right to 1e-6 of it.
-const EPS_FINE: f64 = 1e-8;
+/// Relative error asked of the kernel's integrals of area and flux of each face. 1e-6 was wrong by up to 1e-5 of a
+/// solid's volume (trimmed, long or round faces, far from the middle of the domain); 1e-8 agrees with our own
+/// quadrature to better than 1e-7.
+const EPS: f64 = 1e-8;
 
 /// A solid: one connected piece of a volume.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,22 +59,8 @@ pub(super) struct Counts {
 impl Measured {
     /// Measures solids that the kernel made, by the kernel's integrals.
     pub(super) fn of_solids(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
-        let round = |shell: &PlannedShell| matches!(shell.body, Body::Ellipsoid(_));
-        if plan.shells.iter().any(round) {
-            Self::finely(solids, plan)
-        } else {
-            Self::with_error(solids, plan, EPS)
-        }
-    }
-
-    /// The same, more finely: for faces that are round, or not cut into segments.
-    pub(super) fn finely(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
-        Self::with_error(solids, plan, EPS_FINE)
-    }
-
-    fn with_error(solids: &Solids, plan: &AssemblyPlan, eps: f64) -> Result<Self, BridgeError> {
         let middle = (plan.low + plan.high) / 2.0;
-        let integrals = face_integrals(solids, eps, middle.to_array(), Threads::All)?;
+        let integrals = face_integrals(solids, EPS, middle.to_array(), Threads::All)?;
         let boxes: Vec<(DVec3, DVec3)> = solid_boxes(solids, Threads::All)?
             .iter()
             .map(|one| (DVec3::from_array(one.min), DVec3::from_array(one.max)))

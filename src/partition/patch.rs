@@ -46,6 +46,9 @@ pub(super) struct Patch {
     pub(super) u: [f64; 2],
     pub(super) v: [f64; 2],
     pub(super) bounds: Bounds,
+    /// The direction across which it is likely to be thin, and its range along it.
+    thin: DVec3,
+    slab: [f64; 2],
 }
 
 /// Values, first and second derivatives of the Bernstein polynomials of one degree on [0, 1].
@@ -147,9 +150,29 @@ impl Patch {
             u,
             v,
             bounds: Bounds::EMPTY,
+            thin: DVec3::ZERO,
+            slab: [0.0; 2],
         };
-        patch.bounds = Bounds::of(patch.points());
+        patch.measure();
         patch
+    }
+
+    /// Finds what is kept about where it is.
+    fn measure(&mut self) {
+        self.bounds = Bounds::of(self.points());
+        self.thin = self.thin_direction();
+        self.slab = self.range_along(self.thin);
+    }
+
+    /// Whether a plane across its thin direction separates it from another patch.
+    pub(super) fn is_beside(&self, other: &Self) -> bool {
+        let range = other.range_along(self.thin);
+        self.slab[0] > range[1] || range[0] > self.slab[1]
+    }
+
+    /// Its thin direction, and its range along it.
+    pub(super) fn slab(&self) -> (DVec3, [f64; 2]) {
+        (self.thin, self.slab)
     }
 
     fn points(&self) -> impl Iterator<Item = DVec3> {
@@ -313,13 +336,12 @@ impl Patch {
                 high.v[0] = v;
             }
         }
-        low.bounds = Bounds::of(low.points());
-        high.bounds = Bounds::of(high.points());
+        low.measure();
+        high.measure();
         [low, high]
     }
 
-    /// The direction across which it is likely to be thin.
-    pub(super) fn thin_direction(&self) -> DVec3 {
+    fn thin_direction(&self) -> DVec3 {
         let corner = |i: usize, j: usize| self.control(i * (self.rows - 1), j * (self.columns - 1));
         let along_u = (corner(1, 0) - corner(0, 0)) + (corner(1, 1) - corner(0, 1));
         let along_v = (corner(0, 1) - corner(0, 0)) + (corner(1, 1) - corner(1, 0));
@@ -327,7 +349,7 @@ impl Patch {
     }
 
     /// The range of its control points along a direction.
-    pub(super) fn range_along(&self, direction: DVec3) -> [f64; 2] {
+    fn range_along(&self, direction: DVec3) -> [f64; 2] {
         self.points()
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
                 let d = p.dot(direction);

@@ -165,9 +165,9 @@ impl<'a> Piercing<'a> {
         if !segment.bounds.meets(&patch.bounds) || !segment.bounds.meets(&self.clip) {
             return;
         }
-        let across = patch.thin_direction();
-        let (x, y) = (segment.range_along(across), patch.range_along(across));
-        if x[0] > y[1] || y[0] > x[1] {
+        let (thin, slab) = patch.slab();
+        let range = segment.range_along(thin);
+        if slab[0] > range[1] || range[0] > slab[1] {
             return;
         }
         let tangents = segment.tangents();

@@ -115,6 +115,9 @@ fn of_face(
     middle: DVec3,
 ) -> Integral {
     let sheet = &geometry.regions.sheets[face.sheet];
+    if let Some([_, normal, _]) = sheet.plane {
+        return of_flat_face(geometry, tracks, arcs, face, normal, middle);
+    }
     let across = Across::new(sheet, &face.polygons[0], middle);
     let mut sum = Integral::default();
     for own in &face.loops {
@@ -138,6 +141,61 @@ fn of_face(
         }
     }
     sum
+}
+
+/// On a plane the curves in space do: the area is `½ ∮ n·(X × dX)`, and the flux is that times a distance.
+fn of_flat_face(
+    geometry: Geometry<'_>,
+    tracks: &Tracks,
+    arcs: &[Arc],
+    face: &Face,
+    normal: DVec3,
+    middle: DVec3,
+) -> Integral {
+    let mut origin = None;
+    let mut area = 0.0;
+    for own in &face.loops {
+        let mut last: Option<DVec3> = None;
+        let mut first = DVec3::ZERO;
+        for half in own {
+            let arc = &arcs[half.arc];
+            let source = tracks.tracks[arc.track].source;
+            let mut stops = vec![arc.t[0]];
+            let inner = geometry.breaks(source).into_iter();
+            stops.extend(inner.filter(|t| *t > arc.t[0] && *t < arc.t[1]));
+            stops.push(arc.t[1]);
+            let ends = arc.t.map(|t| geometry.point(source, t));
+            let origin = *origin.get_or_insert(ends[0]);
+            let (start, end) = if half.forward {
+                (ends[0], ends[1])
+            } else {
+                (ends[1], ends[0])
+            };
+            match last {
+                None => first = start,
+                Some(last) => area += 0.5 * normal.dot((last - origin).cross(start - last)),
+            }
+            last = Some(end);
+            let sign = if half.forward { 0.5 } else { -0.5 };
+            for pair in stops.windows(2) {
+                let own = integrate(RULES[2], pair[0], pair[1], |t| Integral {
+                    area: normal.dot(
+                        (geometry.point(source, t) - origin).cross(geometry.tangent(source, t)),
+                    ),
+                    flux: 0.0,
+                });
+                area += sign * own.area;
+            }
+        }
+        if let (Some(last), Some(origin)) = (last, origin) {
+            area += 0.5 * normal.dot((last - origin).cross(first - last));
+        }
+    }
+    let height = origin.map_or(0.0, |origin| (origin - middle).dot(normal));
+    Integral {
+        area,
+        flux: height * area / 3.0,
+    }
 }
 
 /// What is between the end of each half-edge and the start of the next: curves are computed to a tolerance, and

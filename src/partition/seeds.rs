@@ -3,6 +3,8 @@
 //! A pair of patches whose cones of normals have no direction in common crosses in at most one simple arc
 //! (two arcs, or a loop, would need parallel normals somewhere), so one attempt to land on it is enough.
 
+use std::borrow::Cow;
+
 use super::bounds::Bounds;
 use super::hermite::{Branch, Node};
 use super::pair::{Closing, Pair};
@@ -18,13 +20,13 @@ const FLAT: f64 = 0.35;
 /// Sizes of two patches that are compared may differ by this factor.
 const RATIO: f64 = 4.0;
 
-struct Piece {
-    patch: Patch,
+struct Piece<'a> {
+    patch: Cow<'a, Patch>,
     normals: Option<(glam::DVec3, f64)>,
 }
 
-impl Piece {
-    fn new(patch: Patch) -> Self {
+impl<'a> Piece<'a> {
+    fn new(patch: Cow<'a, Patch>) -> Self {
         let normals = patch.normals();
         Self { patch, normals }
     }
@@ -73,7 +75,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
                 let (p, q) = (a.patch(p), b.patch(q));
                 if !apart(p, q) {
-                    self.patches(&Piece::new(p.clone()), &Piece::new(q.clone()));
+                    self.patches(&Piece::new(Cow::Borrowed(p)), &Piece::new(Cow::Borrowed(q)));
                 }
             }
             (NodeKind::Pair(first, second), NodeKind::Leaf(_)) => {
@@ -96,7 +98,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    fn patches(&mut self, a: &Piece, b: &Piece) {
+    fn patches(&mut self, a: &Piece<'_>, b: &Piece<'_>) {
         self.halvings += 1;
         if self.halvings > MOST {
             return;
@@ -137,7 +139,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             if apart(&half, other) {
                 continue;
             }
-            let half = Piece::new(half);
+            let half = Piece::new(Cow::Owned(half));
             if first {
                 self.patches(&half, b);
             } else {
@@ -147,7 +149,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// Tries to land on the curve between two patches. Whether there is one, known or new.
-    fn land(&mut self, a: &Piece, b: &Piece) -> bool {
+    fn land(&mut self, a: &Piece<'_>, b: &Piece<'_>) -> bool {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let within = |q: &[f64; 4]| {
             (0..4).all(|i| {
@@ -205,9 +207,5 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
 /// Whether a plane along either patch separates both.
 fn apart(a: &Patch, b: &Patch) -> bool {
-    [a, b].iter().any(|of| {
-        let direction = of.thin_direction();
-        let (x, y) = (a.range_along(direction), b.range_along(direction));
-        x[0] > y[1] || y[0] > x[1]
-    })
+    a.is_beside(b) || b.is_beside(a)
 }

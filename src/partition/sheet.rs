@@ -14,6 +14,8 @@ pub(super) struct Sheet {
     pub(super) region: usize,
     /// 1 if `S_u × S_v` points out of the region, −1 if it points in.
     pub(super) outward: f64,
+    /// A point, the unit normal `S_u × S_v` and the direction of u, if it is flat.
+    pub(super) plane: Option<[DVec3; 3]>,
     /// Borders that join no other sheet: where curves end there, nobody asks.
     pub(super) open: Vec<Border>,
     /// Distinct knots.
@@ -22,6 +24,9 @@ pub(super) struct Sheet {
     patches: Vec<Patch>,
     tree: Vec<Node>,
 }
+
+/// Surfaces flatter than this fraction of their size are planes.
+const FLAT: f64 = 1e-10;
 
 /// A node of a box tree: two children, or a patch.
 #[derive(Clone, Copy, Debug)]
@@ -94,13 +99,26 @@ impl Sheet {
             region,
             outward: 1.0,
             open: Vec::new(),
+            plane: None,
             knots,
             patches,
             tree: Vec::new(),
         };
         let spans = [sheet.knots[0].len() - 1, sheet.knots[1].len() - 1];
         sheet.branch([0, spans[0]], [0, spans[1]]);
+        sheet.plane = sheet.flat();
         Some(sheet)
+    }
+
+    /// A point of the plane, its normal and the direction of u, if all control points lie on one.
+    fn flat(&self) -> Option<[DVec3; 3]> {
+        let middle = |axis: usize| self.low(axis) + 0.5 * self.length(axis);
+        let (point, u, v) = self.first_jet(middle(0), middle(1));
+        let normal = u.cross(v).try_normalize()?;
+        let reach = FLAT * self.bounds().diagonal();
+        let is_near = |p: &DVec3| (*p - point).dot(normal).abs() <= reach;
+        let flat = self.surface.net().iter().all(is_near);
+        flat.then(|| [point, normal, u.normalize()])
     }
 
     fn branch(&mut self, u: [usize; 2], v: [usize; 2]) -> usize {

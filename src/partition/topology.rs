@@ -151,9 +151,6 @@ pub struct Solid {
     pub bounds: (DVec3, DVec3),
 }
 
-/// Surfaces flatter than this fraction of their size are planes.
-const FLAT: f64 = 1e-10;
-
 impl Topology {
     pub(super) fn new(parts: &Parts<'_>, solids: Vec<JoinedSolid>) -> Self {
         let surfaces: Vec<SheetShape> = parts
@@ -423,7 +420,7 @@ fn shape(parts: &Parts<'_>, face: &TracedFace) -> SheetShape {
         .iter()
         .position(|other| other.region == sheet.region)
         .unwrap_or(face.sheet);
-    let plane = plane(sheet);
+    let plane = sheet.plane;
     let surface = if plane.is_some() {
         sheet.surface.clone()
     } else {
@@ -443,20 +440,6 @@ fn shape(parts: &Parts<'_>, face: &TracedFace) -> SheetShape {
         surface,
         plane,
     }
-}
-
-/// A point of the plane, its normal and the direction of u, if a sheet is flat.
-fn plane(sheet: &Sheet) -> Option<[DVec3; 3]> {
-    let middle = |axis: usize| sheet.low(axis) + 0.5 * sheet.length(axis);
-    let (point, u, v) = sheet.first_jet(middle(0), middle(1));
-    let normal = u.cross(v).try_normalize()?;
-    let reach = sheet.bounds().diagonal();
-    let flat = sheet
-        .surface
-        .net()
-        .iter()
-        .all(|p| (*p - point).dot(normal).abs() <= FLAT * reach);
-    flat.then(|| [point, normal, u.normalize()])
 }
 
 /// All faces together have at least about this many sample points.

@@ -280,7 +280,7 @@ impl Prover<'_> {
 
     /// The kernel's integrals give the same volumes.
     fn kernel_volumes(&self) -> Result<Check, ProofError> {
-        let measured = Measured::finely(self.solids, self.plan)?;
+        let measured = Measured::of_solids(self.solids, self.plan)?;
         let of_solid = |of: &Measured| {
             let mut sizes: Vec<(usize, usize, f64)> = of
                 .pieces
