@@ -46,7 +46,7 @@ pub(super) struct Triple {
 #[derive(Debug)]
 pub(super) struct Crossings {
     pub(super) roots: Vec<EdgeRoot>,
-    pub(super) crossings: Vec<Crossing>,
+    pub(super) curves: Vec<Crossing>,
     pub(super) triples: Vec<Triple>,
     /// Regions whose sheets' crossings have faults.
     pub(super) doubtful: Vec<usize>,
@@ -124,7 +124,7 @@ impl Crossings {
         Self {
             doubtful,
             roots,
-            crossings,
+            curves: crossings,
             triples: all,
         }
     }
@@ -221,7 +221,7 @@ fn trace(
         let Some(node) = inwards(&pair, &starts[at]) else {
             continue;
         };
-        let Some(mut branch) = march.from_root(node, starts[at].root) else {
+        let Some(mut branch) = march.inwards_from(node, starts[at].root) else {
             continue;
         };
         starts[at].used = true;

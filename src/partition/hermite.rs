@@ -56,16 +56,18 @@ pub(super) fn on_sheet(parts: &[f64; PARTS], side: usize) -> DVec2 {
 /// The six control points of the piece from one node to the next, `length` long.
 pub(super) fn control(a: &Node, b: &Node, length: f64) -> [[f64; PARTS]; 6] {
     let (h, k) = (length / 5.0, length * length / 20.0);
-    let mut points = [[0.0; PARTS]; 6];
-    for i in 0..PARTS {
-        points[0][i] = a.value[i];
-        points[1][i] = a.value[i] + h * a.first[i];
-        points[2][i] = a.value[i] + 2.0 * h * a.first[i] + k * a.second[i];
-        points[3][i] = b.value[i] - 2.0 * h * b.first[i] + k * b.second[i];
-        points[4][i] = b.value[i] - h * b.first[i];
-        points[5][i] = b.value[i];
-    }
-    points
+    // The node's quadratic Taylor polynomial as one of degree 5.
+    let taylor = |node: &Node, first: f64, second: f64| {
+        std::array::from_fn(|i| node.value[i] + first * node.first[i] + second * node.second[i])
+    };
+    [
+        a.value,
+        taylor(a, h, 0.0),
+        taylor(a, 2.0 * h, k),
+        taylor(b, -2.0 * h, k),
+        taylor(b, -h, 0.0),
+        b.value,
+    ]
 }
 
 /// The piece's value at a fraction of its length.

@@ -76,7 +76,7 @@ impl March<'_> {
     }
 
     /// The branch that starts at a root on a border and runs inwards.
-    pub(super) fn from_root(&self, start: Node, root: usize) -> Option<Branch> {
+    pub(super) fn inwards_from(&self, start: Node, root: usize) -> Option<Branch> {
         let run = self.run(start, start);
         let ends = [End::AtRoot(root), run.end];
         Some(self.branch(vec![start], vec![], run, ends)).filter(|branch| branch.nodes.len() > 1)

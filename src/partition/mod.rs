@@ -191,7 +191,7 @@ pub fn partition(
             .any(|node| regions.domain.holds(node.point()))
     };
     let mut crossing_regions: Vec<(usize, usize)> = crossings
-        .crossings
+        .curves
         .iter()
         .filter(inside)
         .map(|crossing| crossing.sheets.map(|sheet| regions.sheets[sheet].region))
@@ -204,7 +204,7 @@ pub fn partition(
         faults,
         doubtful_regions: crossings.doubtful,
         crossing_regions,
-        branches: crossings.crossings.len(),
+        branches: crossings.curves.len(),
         timings: clock.laps,
     })
 }

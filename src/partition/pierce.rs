@@ -192,9 +192,8 @@ impl<'a> Piercing<'a> {
             return;
         }
         // Whatever is longer, or bends more when both are small enough to compare.
-        let halve_segment = if size_s > 4.0 * size_p || size_p > 4.0 * size_s {
-            size_s > size_p
-        } else if bend < STRAIGHT && lean < STRAIGHT {
+        let unlike = size_s > 4.0 * size_p || size_p > 4.0 * size_s;
+        let halve_segment = if unlike || (bend < STRAIGHT && lean < STRAIGHT) {
             size_s > size_p
         } else {
             bend > lean

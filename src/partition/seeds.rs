@@ -119,13 +119,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             }
             return;
         }
-        let first = if size_a > RATIO * size_b
-            || size_b > RATIO * size_a
-            || size_b < least
-            || size_a < least
-        {
-            size_a > size_b
-        } else if a.lean() < FLAT && b.lean() < FLAT {
+        let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
+        let too_small = size_a < least || size_b < least;
+        let first = if unlike || too_small || (a.lean() < FLAT && b.lean() < FLAT) {
             size_a > size_b
         } else {
             a.lean() > b.lean()

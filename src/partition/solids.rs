@@ -126,7 +126,7 @@ impl Parts<'_> {
         let face = &self.faces[half / 2];
         let out = self.geometry.regions.sheets[face.sheet].outward;
         let flux = out * self.integrals[half / 2].flux;
-        if half % 2 == 0 { flux } else { -flux }
+        if half.is_multiple_of(2) { flux } else { -flux }
     }
 
     /// Along every arc, a shell comes in as often as it goes out.
@@ -191,7 +191,7 @@ impl Parts<'_> {
     fn oriented(&self, halves: &[HalfFace]) -> Vec<(usize, bool)> {
         let reversed = |half: &HalfFace| {
             let out = self.geometry.regions.sheets[self.faces[half / 2].sheet].outward;
-            (out > 0.0) != (half % 2 == 0)
+            (out > 0.0) != half.is_multiple_of(2)
         };
         halves
             .iter()

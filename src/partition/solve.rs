@@ -27,8 +27,9 @@ pub(super) fn solve<const N: usize>(
         for r in i + 1..N {
             let factor = matrix[r][i] / matrix[i][i];
             if factor != 0.0 {
-                for k in i..N {
-                    matrix[r][k] -= factor * matrix[i][k];
+                let pivot_row = matrix[i];
+                for (entry, above) in matrix[r][i..].iter_mut().zip(&pivot_row[i..]) {
+                    *entry -= factor * above;
                 }
                 right[r] -= factor * right[i];
             }

@@ -298,7 +298,7 @@ impl Builder<'_> {
                 arc.t,
             ))),
             Source::Crossing(index) => {
-                let branch = &geometry.crossings.crossings[index].branch;
+                let branch = &geometry.crossings.curves[index].branch;
                 deviation = branch.deviation;
                 let (knots, points) = branch.spline(arc.t);
                 let place = |p: &[f64; PARTS]| DVec3::new(p[0], p[1], p[2]);
@@ -358,7 +358,7 @@ impl Builder<'_> {
         let source = self.parts.tracks.tracks[arc.track].source;
         let image = match source {
             Source::Crossing(index) => {
-                let (knots, points) = geometry.crossings.crossings[index].branch.spline(arc.t);
+                let (knots, points) = geometry.crossings.curves[index].branch.spline(arc.t);
                 let place = |p: &[f64; PARTS]| DVec2::new(p[3 + 2 * side], p[4 + 2 * side]);
                 let points = points.iter().map(place).collect();
                 PlaneCurve::Computed { knots, points }
@@ -400,7 +400,7 @@ fn extent(parts: &Parts<'_>, face: &TracedFace) -> [DVec2; 2] {
     for half in &face.loops[0] {
         let arc = &parts.arcs[half.arc];
         if let Source::Crossing(at) = parts.tracks.tracks[arc.track].source {
-            let branch = &parts.geometry.crossings.crossings[at].branch;
+            let branch = &parts.geometry.crossings.curves[at].branch;
             let (_, points) = branch.spline(arc.t);
             places.extend(points.iter().map(|point| on_sheet(point, half.side)));
         }

@@ -55,7 +55,7 @@ impl Geometry<'_> {
     pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
         match source {
             Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).0,
-            Source::Crossing(at) => hermite::space(&self.crossings.crossings[at].branch.value(t)),
+            Source::Crossing(at) => hermite::space(&self.crossings.curves[at].branch.value(t)),
             Source::Pole(at) => self.regions.poles[at].point,
         }
     }
@@ -64,9 +64,7 @@ impl Geometry<'_> {
     pub(super) fn tangent(&self, source: Source, t: f64) -> DVec3 {
         match source {
             Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).1,
-            Source::Crossing(at) => {
-                hermite::space(&self.crossings.crossings[at].branch.derivative(t))
-            }
+            Source::Crossing(at) => hermite::space(&self.crossings.curves[at].branch.derivative(t)),
             Source::Pole(_) => DVec3::ZERO,
         }
     }
@@ -83,7 +81,7 @@ impl Geometry<'_> {
         match source {
             Source::Edge(edge) => self.regions.edges[edge].sides[side].at(sheets, t),
             Source::Crossing(at) => {
-                let branch = &self.crossings.crossings[at].branch;
+                let branch = &self.crossings.curves[at].branch;
                 (
                     hermite::on_sheet(&branch.value(t), side),
                     hermite::on_sheet(&branch.derivative(t), side),
@@ -112,7 +110,7 @@ impl Geometry<'_> {
                 .map(|segment| segment.t[0])
                 .collect(),
             Source::Crossing(at) => {
-                let lengths = &self.crossings.crossings[at].branch.lengths;
+                let lengths = &self.crossings.curves[at].branch.lengths;
                 lengths[1..lengths.len() - 1].to_vec()
             }
             Source::Pole(at) => {
@@ -246,7 +244,7 @@ impl Tracks {
     }
 
     fn add_crossings(&mut self, crossings: &Crossings, roots: &[usize]) {
-        for (index, crossing) in crossings.crossings.iter().enumerate() {
+        for (index, crossing) in crossings.curves.iter().enumerate() {
             let branch = &crossing.branch;
             let length = branch.length();
             let mut cuts = Vec::new();
@@ -292,13 +290,13 @@ impl Tracks {
     ) {
         let mut by_sheets: BTreeMap<[usize; 3], Vec<usize>> = BTreeMap::new();
         for (index, triple) in crossings.triples.iter().enumerate() {
-            let [a, b] = crossings.crossings[triple.crossing].sheets;
+            let [a, b] = crossings.curves[triple.crossing].sheets;
             let mut key = [a, b, triple.sheet];
             key.sort_unstable();
             by_sheets.entry(key).or_default().push(index);
         }
         let mut of_pair: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
-        for (index, crossing) in crossings.crossings.iter().enumerate() {
+        for (index, crossing) in crossings.curves.iter().enumerate() {
             of_pair.entry(crossing.sheets).or_default().push(index);
         }
         let domain = regions.domain.grown(tolerances.same);
@@ -321,7 +319,7 @@ impl Tracks {
                         vertex,
                         regions.sheets[triple.sheet].region,
                     );
-                    pairs.push(crossings.crossings[triple.crossing].sheets);
+                    pairs.push(crossings.curves[triple.crossing].sheets);
                 }
                 let all = [[key[0], key[1]], [key[0], key[2]], [key[1], key[2]]];
                 for (k, pair) in all.iter().enumerate() {
@@ -333,7 +331,7 @@ impl Tracks {
                     let third = regions.sheets[key[2 - k]].region;
                     let repaired = count == 0
                         && of_pair.get(pair).into_iter().flatten().any(|&index| {
-                            let (t, distance) = crossings.crossings[index].branch.project(point);
+                            let (t, distance) = crossings.curves[index].branch.project(point);
                             let close = distance <= 100.0 * tolerances.same;
                             if close {
                                 self.cut(first + index, t, vertex, third);

@@ -92,12 +92,11 @@ impl Prover<'_> {
         let faces = self.solids.faces().len().max(1);
         let each = BESIDE_FACES.div_ceil(faces).max(LEAST_A_FACE);
         let asked;
-        let samples = match &self.evidence.samples {
-            Some(samples) => samples,
-            None => {
-                asked = face_samples(self.solids, each, Threads::All)?;
-                &asked
-            }
+        let samples = if let Some(samples) = &self.evidence.samples {
+            samples
+        } else {
+            asked = face_samples(self.solids, each, Threads::All)?;
+            &asked
         };
         // [the face looks out of this owner's solid, it looks into this one's]
         let mut sides = vec![[None; 2]; faces];
