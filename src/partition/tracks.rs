@@ -117,7 +117,11 @@ impl Geometry<'_> {
                 let lengths = &self.crossings.crossings[at].branch.lengths;
                 lengths[1..lengths.len() - 1].to_vec()
             }
-            Source::Pole(_) => Vec::new(),
+            Source::Pole(at) => {
+                let pole = &self.regions.poles[at];
+                let knots = &self.regions.sheets[pole.sheet].knots[1 - pole.border.axis()];
+                knots[1..knots.len() - 1].to_vec()
+            }
         }
     }
 }
