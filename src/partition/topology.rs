@@ -403,7 +403,10 @@ fn samples(sheet: &Sheet, face: &TracedFace) -> Vec<FaceSample> {
             .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
         let Some(gap) = widest else { continue };
         let at = DVec2::new(f64::midpoint(gap[0], gap[1]), y);
-        debug_assert!(encloses(outer, at));
+        // Loops of a faulty arrangement need not lie in each other.
+        if !encloses(outer, at) {
+            continue;
+        }
         let (point, u, v) = sheet.first_jet(at.x, at.y);
         if let Some(normal) = u.cross(v).try_normalize() {
             found.push(FaceSample { point, normal });
