@@ -107,12 +107,7 @@ impl Geometry<'_> {
     /// Parameters strictly between which a track is one smooth piece.
     pub(super) fn breaks(&self, source: Source) -> Vec<f64> {
         match source {
-            Source::Edge(edge) => self.regions.edges[edge]
-                .segments
-                .iter()
-                .skip(1)
-                .map(|segment| segment.t[0])
-                .collect(),
+            Source::Edge(edge) => self.edge_breaks(edge),
             Source::Crossing(at) => {
                 let lengths = &self.crossings.crossings[at].branch.lengths;
                 lengths[1..lengths.len() - 1].to_vec()
@@ -123,6 +118,26 @@ impl Geometry<'_> {
                 knots[1..knots.len() - 1].to_vec()
             }
         }
+    }
+}
+
+impl Geometry<'_> {
+    /// The knots of both sheets along an edge: either may have some that the other lacks.
+    fn edge_breaks(&self, edge: usize) -> Vec<f64> {
+        let own = &self.regions.edges[edge];
+        let (start, end) = own.curve.domain();
+        let mut breaks: Vec<f64> = own.segments.iter().skip(1).map(|segment| segment.t[0]).collect();
+        let other = &own.sides[1];
+        let knots = &self.regions.sheets[other.sheet].knots[1 - other.border.axis()];
+        let same = 1e-9 * (end - start);
+        for knot in &knots[1..knots.len() - 1] {
+            let t = (knot - other.shift) / other.scale;
+            if breaks.iter().all(|known| (known - t).abs() > same) {
+                breaks.push(t);
+            }
+        }
+        breaks.sort_by(f64::total_cmp);
+        breaks
     }
 }
 
