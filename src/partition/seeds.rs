@@ -65,13 +65,13 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     fn nodes(&mut self, i: usize, j: usize) {
         let [a, b] = self.pair.sheets;
         let (x, y) = (a.node(i), b.node(j));
-        if !x.bounds.meets(&y.bounds) || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds) {
+        if !x.bounds.grown(self.slack()).meets(&y.bounds) || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds) {
             return;
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
                 let (p, q) = (a.patch(p), b.patch(q));
-                if !apart(p, q) {
+                if !apart(p, q, self.slack()) {
                     self.patches(&Piece::new(p.clone()), &Piece::new(q.clone()));
                 }
             }
@@ -126,10 +126,10 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let halved = if first { a } else { b };
         for half in halved.patch.halves(halved.patch.longer()) {
             let other = if first { &b.patch } else { &a.patch };
-            if !half.bounds.meets(&other.bounds) || !self.clip.meets(&half.bounds) {
+            if !half.bounds.grown(self.slack()).meets(&other.bounds) || !self.clip.meets(&half.bounds) {
                 continue;
             }
-            if apart(&half, other) {
+            if apart(&half, other, self.slack()) {
                 continue;
             }
             let half = Piece::new(half);
@@ -177,8 +177,10 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if self.is_traced(&node) {
             return true;
         }
-        if let Some(branch) = (self.found)(node) {
-            self.branches.push(branch);
+        match (self.found)(node) {
+            Some(branch) => self.branches.push(branch),
+            // A point of a curve that cannot be followed.
+            None => self.undecided += 1,
         }
         true
     }
@@ -192,17 +194,23 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             .any(|branch| branch.project(node.point()).1 < near)
     }
 
+    /// Sheets nearer than curves are computed to are not apart: they touch.
+    fn slack(&self) -> f64 {
+        self.pair.tolerances.curve
+    }
+
     /// Whether the search was given up.
     pub(super) fn gave_up(&self) -> bool {
         self.halvings > MOST
     }
 }
 
-/// Whether a plane along either patch separates both.
-fn apart(a: &Patch, b: &Patch) -> bool {
+/// Whether a plane along either patch separates both, by more than the slack.
+fn apart(a: &Patch, b: &Patch, slack: f64) -> bool {
     [a, b].iter().any(|of| {
         let direction = of.thin_direction();
+        let slack = slack * direction.length();
         let (x, y) = (a.range_along(direction), b.range_along(direction));
-        x[0] > y[1] || y[0] > x[1]
+        x[0] > y[1] + slack || y[0] > x[1] + slack
     })
 }
