@@ -13,6 +13,8 @@ use super::sheet::NodeKind;
 const LEAST: f64 = 1e-5;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
+/// Sheets that cross at more than this sine do not touch nearby.
+const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
 const FLAT: f64 = 0.35;
 /// Sizes of two patches that are compared may differ by this factor.
@@ -111,7 +113,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         let least = LEAST * self.pair.tolerances.scale;
         if size_a < least && size_b < least {
-            if !self.land(a, b) {
+            if !self.land(a, b) && !self.passes_by(a, b) {
                 self.undecided += 1;
             }
             return;
@@ -183,6 +185,22 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             None => self.undecided += 1,
         }
         true
+    }
+
+    /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
+    /// tell little about where a place is.
+    fn passes_by(&self, a: &Piece, b: &Piece) -> bool {
+        let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
+        let mut q = [u, v, s, t];
+        let Some(node) = self.pair.node(q, None) else {
+            return false;
+        };
+        let closing = Closing::Plane(node.tangent(), node.point());
+        let landed = self.pair.newton(&mut q, closing, 10).then(|| self.pair.node(q, None)).flatten();
+        let near = 2.0 * LEAST * self.pair.tolerances.scale;
+        landed.is_some_and(|at| {
+            at.sine > STEEP && at.point().distance(node.point()) < near && self.is_traced(&at)
+        })
     }
 
     /// Whether a known branch passes through a point.
