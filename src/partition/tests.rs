@@ -3,6 +3,7 @@
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::panic,
+    clippy::type_complexity,
     reason = "a test fails by panicking"
 )]
 
@@ -75,7 +76,10 @@ fn staged(injected: &Injected) -> (Faults, Vec<f64>) {
     (injected.roots)(&regions, &mut roots);
     let mut crossings = Crossings::from_roots(&regions, roots, tolerances, clip, &mut faults);
     (injected.crossings)(&regions, &mut crossings);
-    let geometry = Geometry { regions: &regions, crossings: &crossings };
+    let geometry = Geometry {
+        regions: &regions,
+        crossings: &crossings,
+    };
     let mut tracks = Tracks::new(&regions, &crossings, tolerances, &mut faults);
     (injected.tracks)(&regions, &mut tracks);
     let mut arcs = arcs::arcs(geometry, &tracks, &combinations, &mut faults);
@@ -115,7 +119,12 @@ fn stages_without_damage_give_what_partition_gives() {
     let (faults, sizes) = staged(&Injected::default());
     assert!(faults.is_none(), "{faults}");
     let made = partition(scene(), &combinations, &Options::default()).unwrap();
-    let whole: Vec<f64> = made.topology.solids.iter().map(|solid| solid.size).collect();
+    let whole: Vec<f64> = made
+        .topology
+        .solids
+        .iter()
+        .map(|solid| solid.size)
+        .collect();
     assert_eq!(sizes, whole);
     assert_eq!(sizes.len(), 8);
 }
@@ -136,12 +145,17 @@ fn an_invented_root_is_used_by_no_branch() {
     // The edge of a box with a lid that is parallel to the level.
     let invent = Injected {
         roots: Box::new(|regions, roots| {
-            let level = regions.sheets.iter().position(|sheet| sheet.region == 2).unwrap();
+            let level = regions
+                .sheets
+                .iter()
+                .position(|sheet| sheet.region == 2)
+                .unwrap();
             let upright = |edge: &usize| {
                 let points = regions.edges[*edge].curve.points();
                 (points[0] - points[1]).z.abs() > 0.5
             };
-            let flat = (0..regions.edges.len()).find(|edge| regions.edges[*edge].region == 1 && !upright(edge));
+            let flat = (0..regions.edges.len())
+                .find(|edge| regions.edges[*edge].region == 1 && !upright(edge));
             let mut root = *roots.iter().find(|root| root.sheet == level).unwrap();
             root.edge = flat.unwrap();
             roots.push(root);
@@ -200,9 +214,10 @@ fn a_point_of_three_sheets_whose_curve_was_dropped_is_inconsistent() {
 fn a_cut_that_names_another_region_contradicts_the_sides() {
     let rename = Injected {
         tracks: Box::new(|regions, tracks| {
-            let track = tracks.tracks.iter_mut().find(|track| {
-                regions.sheets[track.sheets[0]].region == 1 && track.cuts.len() > 2
-            });
+            let track = tracks
+                .tracks
+                .iter_mut()
+                .find(|track| regions.sheets[track.sheets[0]].region == 1 && track.cuts.len() > 2);
             let cut = &mut track.unwrap().cuts[1];
             cut.region = Some(if cut.region == Some(3) { 2 } else { 3 });
         }),
@@ -257,7 +272,10 @@ fn a_hole_with_other_labels_than_what_is_around_it_has_no_face() {
                 let sheets = tracks.tracks[arc.track].sheets;
                 for flap in &mut arc.flaps {
                     let level = regions.sheets[sheets[flap.side]].region == 2;
-                    if level && flap.labels == [Some(0b100), Some(0)] && sheets.iter().all(|s| regions.sheets[*s].region != 0) {
+                    if level
+                        && flap.labels == [Some(0b100), Some(0)]
+                        && sheets.iter().all(|s| regions.sheets[*s].region != 0)
+                    {
                         flap.labels = [Some(77), Some(78)];
                     }
                 }

@@ -12,7 +12,17 @@ use glam::{DVec2, DVec3};
 
 /// The youngest region that holds a place has it.
 pub fn youngest(holds: &[bool]) -> Label {
-    if holds[0] { Some(holds.iter().skip(1).rposition(|held| *held).map_or(0, |at| at + 1)) } else { None }
+    if holds[0] {
+        Some(
+            holds
+                .iter()
+                .skip(1)
+                .rposition(|held| *held)
+                .map_or(0, |at| at + 1),
+        )
+    } else {
+        None
+    }
 }
 
 /// Every combination of regions is a volume of its own: the sum of 2^index.
@@ -34,12 +44,19 @@ pub fn sound(regions: &[Region], rule: Rule) -> Partition {
 
 /// The size of everything with a label.
 pub fn size(made: &Partition, label: usize) -> f64 {
-    made.topology.solids.iter().filter(|solid| solid.label == label).map(|solid| solid.size).sum()
+    made.topology
+        .solids
+        .iter()
+        .filter(|solid| solid.label == label)
+        .map(|solid| solid.size)
+        .sum()
 }
 
 /// Everything that holds for every partition.
 pub fn audit(regions: &[Region], rule: Rule, made: &Partition) {
-    let Region::Block { low, high } = regions[0] else { panic!("the first region is the block") };
+    let Region::Block { low, high } = regions[0] else {
+        panic!("the first region is the block")
+    };
     let (topology, scale) = (&made.topology, (high - low).length());
     sizes_fill_the_block(topology, high - low);
     faces_are_used_by_what_lies_beside_them(topology);
@@ -75,7 +92,12 @@ fn faces_are_used_by_what_lies_beside_them(topology: &Topology) {
 }
 
 fn loops_are_closed(topology: &Topology) {
-    for (at, own) in topology.faces.iter().enumerate().flat_map(|(at, face)| face.loops.iter().map(move |own| (at, own))) {
+    for (at, own) in topology
+        .faces
+        .iter()
+        .enumerate()
+        .flat_map(|(at, face)| face.loops.iter().map(move |own| (at, own)))
+    {
         let ends = |(edge, backward): (usize, bool)| {
             let [a, b] = topology.edges[edge].ends;
             if backward { [b, a] } else { [a, b] }
@@ -83,7 +105,11 @@ fn loops_are_closed(topology: &Topology) {
         assert!(!own.is_empty(), "face {at} has an empty loop");
         for k in 0..own.len() {
             let next = own[(k + 1) % own.len()];
-            assert_eq!(ends(own[k])[1], ends(next)[0], "a loop of face {at} is open");
+            assert_eq!(
+                ends(own[k])[1],
+                ends(next)[0],
+                "a loop of face {at} is open"
+            );
         }
     }
 }
@@ -134,7 +160,14 @@ impl Inside {
 
 fn samples_agree_with_the_rule(topology: &Topology, regions: &[Region], rule: Rule, scale: f64) {
     let insides: Vec<Inside> = regions.iter().map(Inside::new).collect();
-    let label = |p: DVec3| rule(&insides.iter().map(|inside| inside.holds(p)).collect::<Vec<_>>());
+    let label = |p: DVec3| {
+        rule(
+            &insides
+                .iter()
+                .map(|inside| inside.holds(p))
+                .collect::<Vec<_>>(),
+        )
+    };
     // Far above the precision of inside tests, far below the size of what is tested.
     let beside = 1e-7 * scale;
     for (at, face) in topology.faces.iter().enumerate() {
@@ -182,7 +215,11 @@ fn curves_lie_on_their_surfaces(topology: &Topology, scale: f64) {
     for (at, edge) in topology.edges.iter().enumerate() {
         let Some(curve) = edge.curve else { continue };
         let [from, to] = edge.range;
-        assert!(edge.deviation < 3e-11 * scale, "edge {at} deviates by {}", edge.deviation);
+        assert!(
+            edge.deviation < 3e-11 * scale,
+            "edge {at} deviates by {}",
+            edge.deviation
+        );
         for k in 0..=500 {
             let t = from + (to - from) * f64::from(k) / 500.0;
             let p = curves[curve].point(t);
@@ -216,7 +253,11 @@ fn ends_are_at_vertices(topology: &Topology, scale: f64) {
             let vertex = topology.vertices[end];
             assert!(vertex.gap < 1e-9 * scale);
             let gap = curve.point(*t).distance(vertex.point);
-            assert!(gap <= vertex.gap + 1e-14 * scale, "{gap} against {}", vertex.gap);
+            assert!(
+                gap <= vertex.gap + 1e-14 * scale,
+                "{gap} against {}",
+                vertex.gap
+            );
         }
     }
 }

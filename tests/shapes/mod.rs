@@ -57,8 +57,12 @@ pub fn circle() -> Curve {
         (1.0, 0.0),
     ];
     let points = corners.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
-    let weights = (0..9).map(|i| if i % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 }).collect();
-    let knots = vec![0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0];
+    let weights = (0..9)
+        .map(|i| if i % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 })
+        .collect();
+    let knots = vec![
+        0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
+    ];
     Curve::rational(KnotVector::new(2, knots).unwrap(), points, weights).unwrap()
 }
 
@@ -79,9 +83,17 @@ fn revolved(profile: &[(f64, f64, f64)], knots: Vec<f64>) -> Surface {
 /// The unit sphere about the origin: one surface with a seam and two poles.
 pub fn sphere() -> Body {
     let c = FRAC_1_SQRT_2;
-    let profile =
-        [(0.0, -1.0, 1.0), (1.0, -1.0, c), (1.0, 0.0, 1.0), (1.0, 1.0, c), (0.0, 1.0, 1.0)];
-    vec![revolved(&profile, vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0])]
+    let profile = [
+        (0.0, -1.0, 1.0),
+        (1.0, -1.0, c),
+        (1.0, 0.0, 1.0),
+        (1.0, 1.0, c),
+        (0.0, 1.0, 1.0),
+    ];
+    vec![revolved(
+        &profile,
+        vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0],
+    )]
 }
 
 /// A sphere askew.
@@ -118,7 +130,8 @@ pub fn cylinder_of_halves(radius: f64, half_length: f64) -> Body {
     let (near, far) = circle().split(0.5).unwrap();
     let far = far.reversed();
     let at = |half: &Curve, z: f64| moved(half, |p| radius * p + z * DVec3::Z);
-    let side = |half: &Curve| Surface::ruled(&at(half, -half_length), &at(half, half_length)).unwrap();
+    let side =
+        |half: &Curve| Surface::ruled(&at(half, -half_length), &at(half, half_length)).unwrap();
     let cap = |z: f64| {
         // Both halves over the same parameters, so that rulings join opposite places.
         Surface::ruled(&over_unit(&at(&near, z)), &over_unit(&at(&far, z))).unwrap()
@@ -129,7 +142,12 @@ pub fn cylinder_of_halves(radius: f64, half_length: f64) -> Body {
 /// The same curve over [0, 1].
 fn over_unit(curve: &Curve) -> Curve {
     let (from, to) = curve.domain();
-    let knots = curve.knots().as_slice().iter().map(|t| (t - from) / (to - from)).collect();
+    let knots = curve
+        .knots()
+        .as_slice()
+        .iter()
+        .map(|t| (t - from) / (to - from))
+        .collect();
     let knots = KnotVector::new(curve.degree(), knots).unwrap();
     Curve::rational(knots, curve.points().to_vec(), curve.weights().to_vec()).unwrap()
 }
@@ -137,7 +155,11 @@ fn over_unit(curve: &Curve) -> Curve {
 /// A bowl `z = steepness (x² + y²)` up to a radius, with a flat lid: two surfaces, each with a pole.
 pub fn bowl(steepness: f64, radius: f64) -> Body {
     let height = steepness * radius * radius;
-    let profile = [(0.0, 0.0, 1.0), (0.5 * radius, 0.0, 1.0), (radius, height, 1.0)];
+    let profile = [
+        (0.0, 0.0, 1.0),
+        (0.5 * radius, 0.0, 1.0),
+        (radius, height, 1.0),
+    ];
     let wall = revolved(&profile, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
     vec![wall, disc(radius, height)]
 }
@@ -147,8 +169,16 @@ pub fn bowl(steepness: f64, radius: f64) -> Body {
 pub fn trough(half_width: f64, depth: f64, half_length: f64) -> Body {
     let (a, l) = (half_width, half_length);
     let parabola = |y: f64| {
-        let points = vec![DVec3::new(-a, y, 0.0), DVec3::new(0.0, y, -2.0 * depth), DVec3::new(a, y, 0.0)];
-        Curve::new(KnotVector::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]).unwrap(), points).unwrap()
+        let points = vec![
+            DVec3::new(-a, y, 0.0),
+            DVec3::new(0.0, y, -2.0 * depth),
+            DVec3::new(a, y, 0.0),
+        ];
+        Curve::new(
+            KnotVector::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]).unwrap(),
+            points,
+        )
+        .unwrap()
     };
     let line = |y: f64| moved(&parabola(y), |p| DVec3::new(p.x, p.y, 0.0));
     vec![
@@ -162,20 +192,34 @@ pub fn trough(half_width: f64, depth: f64, half_length: f64) -> Body {
 /// A box of six bilinear surfaces.
 pub fn cuboid(low: DVec3, high: DVec3) -> Body {
     let corner = |i: usize| {
-        let pick = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };
+        let pick = |axis: usize| {
+            if i >> axis & 1 == 1 {
+                high[axis]
+            } else {
+                low[axis]
+            }
+        };
         DVec3::new(pick(0), pick(1), pick(2))
     };
     let knots = || KnotVector::new(1, vec![0.0, 0.0, 1.0, 1.0]).unwrap();
-    let side = |c: &[usize; 4]| {
-        Surface::new(knots(), knots(), c.map(corner).to_vec()).unwrap()
-    };
-    [[0, 2, 4, 6], [1, 3, 5, 7], [0, 1, 4, 5], [2, 3, 6, 7], [0, 1, 2, 3], [4, 5, 6, 7]]
-        .iter()
-        .map(side)
-        .collect()
+    let side = |c: &[usize; 4]| Surface::new(knots(), knots(), c.map(corner).to_vec()).unwrap();
+    [
+        [0, 2, 4, 6],
+        [1, 3, 5, 7],
+        [0, 1, 4, 5],
+        [2, 3, 6, 7],
+        [0, 1, 2, 3],
+        [4, 5, 6, 7],
+    ]
+    .iter()
+    .map(side)
+    .collect()
 }
 
 /// A block about the origin.
 pub fn block(half: f64) -> Region {
-    Region::Block { low: DVec3::splat(-half), high: DVec3::splat(half) }
+    Region::Block {
+        low: DVec3::splat(-half),
+        high: DVec3::splat(half),
+    }
 }
