@@ -89,13 +89,23 @@ struct Traced {
 
 impl Crossings {
     pub(super) fn find(regions: &Regions, settings: Settings<'_>, faults: &mut Faults) -> Self {
+        let roots = edge_roots(regions, settings.tolerances, settings.clip, faults);
+        Self::from_roots(regions, roots, settings, faults)
+    }
+
+    /// What follows once the roots of all edges are known.
+    pub(super) fn from_roots(
+        regions: &Regions,
+        roots: Vec<EdgeRoot>,
+        settings: Settings<'_>,
+        faults: &mut Faults,
+    ) -> Self {
         let Settings {
             tolerances,
             clip,
             stop,
         } = settings;
-        let roots = edge_roots(regions, tolerances, clip, faults);
-        let traced: Vec<Traced> = pairs(regions, &clip)
+        let traced: Vec<Traced> = pairs(regions, &clip, tolerances)
             .into_par_iter()
             .filter(|_| !stop())
             .map(|sheets| trace(regions, sheets, &roots, tolerances, clip))
@@ -131,13 +141,13 @@ impl Crossings {
 }
 
 /// Sheets of different regions whose boxes meet.
-fn pairs(regions: &Regions, clip: &Bounds) -> Vec<[usize; 2]> {
+fn pairs(regions: &Regions, clip: &Bounds, tolerances: Tolerances) -> Vec<[usize; 2]> {
     let sheets = &regions.sheets;
     let mut pairs = Vec::new();
     for (i, a) in sheets.iter().enumerate() {
+        let around = a.bounds().grown(tolerances.curve);
         for (j, b) in sheets.iter().enumerate().skip(i + 1) {
-            let near =
-                a.bounds().meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
+            let near = around.meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
             if near && a.region != b.region {
                 pairs.push([i, j]);
             }
@@ -146,7 +156,7 @@ fn pairs(regions: &Regions, clip: &Bounds) -> Vec<[usize; 2]> {
     pairs
 }
 
-fn edge_roots(
+pub(super) fn edge_roots(
     regions: &Regions,
     tolerances: Tolerances,
     clip: Bounds,

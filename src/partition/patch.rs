@@ -164,10 +164,11 @@ impl Patch {
         self.slab = self.range_along(self.thin);
     }
 
-    /// Whether a plane across its thin direction separates it from another patch.
-    pub(super) fn is_beside(&self, other: &Self) -> bool {
+    /// Whether a plane across its thin direction separates it from another patch, by more than a distance.
+    pub(super) fn is_beside(&self, other: &Self, distance: f64) -> bool {
         let range = other.range_along(self.thin);
-        self.slab[0] > range[1] || range[0] > self.slab[1]
+        let slack = distance * self.thin.length();
+        self.slab[0] > range[1] + slack || range[0] > self.slab[1] + slack
     }
 
     /// Its thin direction, and its range along it.

@@ -58,6 +58,8 @@ const RULES: [&[(f64, f64)]; 4] = [
 
 /// For pieces of computed curves: so short that a curve of degree 5 follows them to the tolerance.
 const PIECE: &[(f64, f64)] = RULES[1];
+/// The same on rational sheets: beside a pole, what lies across a piece varies faster than the piece does.
+const RATIONAL_PIECE: &[(f64, f64)] = RULES[3];
 
 /// Which rule integrates polynomials of a sheet's flux exactly, and others well.
 fn rule(degree: usize, rational: bool) -> &'static [(f64, f64)] {
@@ -125,6 +127,7 @@ fn of_face(
         let source = tracks.tracks[arc.track].source;
         let sign = if half.forward { 1.0 } else { -1.0 };
         let outer_rule = match source {
+            Source::Crossing(_) if sheet.surface.is_rational() => RATIONAL_PIECE,
             Source::Crossing(_) => PIECE,
             Source::Edge(_) | Source::Pole(_) => across.along,
         };

@@ -15,6 +15,8 @@ use super::sheet::NodeKind;
 const LEAST: f64 = 1e-5;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
+/// Sheets that cross at more than this sine do not touch nearby.
+const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
 const FLAT: f64 = 0.35;
 /// Sizes of two patches that are compared may differ by this factor.
@@ -67,14 +69,14 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     fn nodes(&mut self, i: usize, j: usize) {
         let [a, b] = self.pair.sheets;
         let (x, y) = (a.node(i), b.node(j));
-        if !x.bounds.meets(&y.bounds) || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds)
-        {
+        let apart_by_boxes = !x.bounds.grown(self.slack()).meets(&y.bounds);
+        if apart_by_boxes || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds) {
             return;
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
                 let (p, q) = (a.patch(p), b.patch(q));
-                if !apart(p, q) {
+                if !apart(p, q, self.slack()) {
                     self.patches(&Piece::new(Cow::Borrowed(p)), &Piece::new(Cow::Borrowed(q)));
                 }
             }
@@ -114,7 +116,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         let least = LEAST * self.pair.tolerances.scale;
         if size_a < least && size_b < least {
-            if !self.land(a, b) {
+            if !self.land(a, b) && !self.passes_by(a, b) {
                 self.undecided += 1;
             }
             return;
@@ -129,10 +131,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let halved = if first { a } else { b };
         for half in halved.patch.halves(halved.patch.longer()) {
             let other = if first { &b.patch } else { &a.patch };
-            if !half.bounds.meets(&other.bounds) || !self.clip.meets(&half.bounds) {
+            if !half.bounds.grown(self.slack()).meets(&other.bounds)
+                || !self.clip.meets(&half.bounds)
+            {
                 continue;
             }
-            if apart(&half, other) {
+            if apart(&half, other, self.slack()) {
                 continue;
             }
             let half = Piece::new(Cow::Owned(half));
@@ -180,10 +184,32 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if self.is_traced(&node) {
             return true;
         }
-        if let Some(branch) = (self.found)(node) {
-            self.branches.push(branch);
+        match (self.found)(node) {
+            Some(branch) => self.branches.push(branch),
+            // A point of a curve that cannot be followed.
+            None => self.undecided += 1,
         }
         true
+    }
+
+    /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
+    /// tell little about where a place is.
+    fn passes_by(&self, a: &Piece<'_>, b: &Piece<'_>) -> bool {
+        let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
+        let mut q = [u, v, s, t];
+        let Some(node) = self.pair.node(q, None) else {
+            return false;
+        };
+        let closing = Closing::Plane(node.tangent(), node.point());
+        let landed = self
+            .pair
+            .newton(&mut q, closing, 10)
+            .then(|| self.pair.node(q, None))
+            .flatten();
+        let near = 2.0 * LEAST * self.pair.tolerances.scale;
+        landed.is_some_and(|at| {
+            at.sine > STEEP && at.point().distance(node.point()) < near && self.is_traced(&at)
+        })
     }
 
     /// Whether a known branch passes through a point.
@@ -195,13 +221,18 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             .any(|branch| branch.project(node.point()).1 < near)
     }
 
+    /// Sheets nearer than curves are computed to are not apart: they touch.
+    fn slack(&self) -> f64 {
+        self.pair.tolerances.curve
+    }
+
     /// Whether the search was given up.
     pub(super) fn gave_up(&self) -> bool {
         self.halvings > MOST
     }
 }
 
-/// Whether a plane along either patch separates both.
-fn apart(a: &Patch, b: &Patch) -> bool {
-    a.is_beside(b) || b.is_beside(a)
+/// Whether a plane along either patch separates both, by more than the slack.
+fn apart(a: &Patch, b: &Patch, slack: f64) -> bool {
+    a.is_beside(b, slack) || b.is_beside(a, slack)
 }

@@ -206,9 +206,7 @@ impl Parts<'_> {
         let candidates: Vec<usize> = (0..outer.len())
             .filter(|at| outer[*at].label == void.label && outer[*at].volume > -void.volume)
             .collect();
-        if let [only] = candidates[..] {
-            return Some(only);
-        }
+        // Even a single candidate is asked: a thin solid whose volume is lost in rounding is nobody's void.
         let face = &self.faces[void.halves[0] / 2];
         let half = face.loops.first()?.first()?;
         let arc = &self.arcs[half.arc];

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Label;
-use super::faces::{Face as TracedFace, HalfEdge};
+use super::faces::{Face as TracedFace, HalfEdge, encloses};
 use super::hermite::{PARTS, on_sheet};
 use super::quadrature::Integral;
 use super::sheet::Sheet;
@@ -474,7 +474,12 @@ fn samples(sheet: &Sheet, face: &TracedFace, count: usize) -> Vec<FaceSample> {
             .chunks_exact(2)
             .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
         let Some(gap) = widest else { continue };
-        let (point, u, v) = sheet.first_jet(f64::midpoint(gap[0], gap[1]), y);
+        let at = DVec2::new(f64::midpoint(gap[0], gap[1]), y);
+        // Loops of a faulty arrangement need not lie in each other.
+        if !encloses(outer, at) {
+            continue;
+        }
+        let (point, u, v) = sheet.first_jet(at.x, at.y);
         if let Some(normal) = u.cross(v).try_normalize() {
             found.push(FaceSample { point, normal });
         }
