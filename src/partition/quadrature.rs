@@ -177,8 +177,10 @@ fn of_flat_face(
             }
             last = Some(end);
             let sign = if half.forward { 0.5 } else { -0.5 };
+            let is_rational = matches!(source, Source::Edge(edge) if geometry.regions.edges[edge].curve.is_rational());
+            let rule = if is_rational { RULES[3] } else { RULES[2] };
             for pair in stops.windows(2) {
-                let own = integrate(RULES[2], pair[0], pair[1], |t| Integral {
+                let own = integrate(rule, pair[0], pair[1], |t| Integral {
                     area: normal.dot(
                         (geometry.point(source, t) - origin).cross(geometry.tangent(source, t)),
                     ),

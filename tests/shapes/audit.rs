@@ -176,8 +176,12 @@ fn samples_agree_with_the_rule(topology: &Topology, regions: &[Region], rule: Ru
     for (at, face) in topology.faces.iter().enumerate() {
         assert!(!face.samples.is_empty(), "face {at} has no sample");
         for sample in &face.samples {
-            let around = [-beside, beside].map(|d| label(sample.point + d * sample.normal));
-            assert_eq!(around, face.labels, "face {at} at {}", sample.point);
+            let around =
+                |beside: f64| [-beside, beside].map(|d| label(sample.point + d * sample.normal));
+            // What is thinner than the distance is looked at from nearer.
+            if around(1e-2 * beside) != face.labels {
+                assert_eq!(around(beside), face.labels, "face {at} at {}", sample.point);
+            }
         }
     }
 }
