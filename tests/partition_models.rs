@@ -1,0 +1,201 @@
+//! Bodies in every kind of contact, made by the partition kernel alone and proven in full.
+//!
+//! The oracles are closed forms, and that a body which nothing younger reaches is the same whatever it has removed.
+#![cfg(feature = "occt")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use clinothem::assembly::{self, Assembly, AssemblyError, Cancel, Engine, Options, proof};
+use clinothem::model::owner::Owners;
+use clinothem::model::plan::AssemblyPlan;
+use clinothem::model::realisation::Realisation;
+use clinothem::model::selection::Selection;
+use clinothem::model::{Format, Model, Source};
+
+struct Built {
+    realisation: Realisation,
+    assembly: Assembly,
+}
+
+fn assemble(source: &Source, without: &[&str], engine: Engine) -> Result<Built, AssemblyError> {
+    let model = Model::check(source).unwrap_or_else(|defects| panic!("{defects}"));
+    let selection = Selection {
+        without: without.iter().map(ToString::to_string).collect(),
+        max_level: None,
+    };
+    let realisation = Realisation::new(&model, &selection).unwrap();
+    let owners = Owners::new(&realisation, &model.domain).unwrap();
+    let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
+    let options = Options {
+        engine,
+        child: None,
+        threads: 0,
+        proof: proof::Level::Full,
+        seed: model.seed,
+    };
+    let assembly = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
+    Ok(Built {
+        realisation,
+        assembly,
+    })
+}
+
+fn contact(name: &str, without: &[&str]) -> Built {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("models/contacts")
+        .join(name)
+        .with_extension("toml");
+    let built = assemble(&Source::read(path).unwrap(), without, Engine::Partition).unwrap();
+    assert_eq!(built.assembly.engine, Engine::Partition);
+    // At the first attempt.
+    assert!(built.assembly.failed.is_empty());
+    built
+}
+
+impl Built {
+    fn volume(&self, name: &str) -> usize {
+        self.realisation.volume(name).unwrap()
+    }
+
+    fn size(&self, name: &str) -> f64 {
+        self.assembly.measured.size_of(self.volume(name))
+    }
+
+    fn pieces(&self, name: &str) -> usize {
+        self.assembly.measured.pieces_of(self.volume(name)).len()
+    }
+
+    fn solids(&self) -> usize {
+        self.assembly.measured.pieces.len()
+    }
+}
+
+fn assert_same(a: f64, b: f64) {
+    assert!((a - b).abs() < 1e-8 * a.abs(), "{a} is not {b}");
+}
+
+fn ellipsoid([a, b, c]: [f64; 3]) -> f64 {
+    4.0 / 3.0 * PI * a * b * c
+}
+
+#[test]
+fn bodies_that_end_inside_the_block_are_whole_where_nothing_younger_comes() {
+    let both = contact("end-caps", &[]);
+    let alone = contact("end-caps", &["older"]);
+    assert_same(both.size("younger"), alone.size("younger"));
+    let older = contact("end-caps", &["younger"]);
+    assert!(both.size("older") < older.size("older"));
+    assert_eq!(both.solids(), 3);
+}
+
+#[test]
+fn banks_may_overhang() {
+    let both = contact("overhang", &[]);
+    let alone = contact("overhang", &["older"]);
+    assert_same(both.size("younger"), alone.size("younger"));
+    assert_eq!(both.solids(), 3);
+}
+
+#[test]
+fn tops_may_lie_on_each_other_and_on_the_top_of_the_block() {
+    let all = contact("level-tops", &[]);
+    // The third is younger than the two beside it: what they are does not change it.
+    let without = contact("level-tops", &["first", "second"]);
+    assert_same(all.size("third"), without.size("third"));
+    let uppermost = contact("level-tops", &["first", "second", "third"]);
+    assert_same(all.size("uppermost"), uppermost.size("uppermost"));
+    assert_eq!(all.pieces("second"), 2);
+}
+
+#[test]
+fn bodies_inside_others_make_voids_and_float() {
+    let all = contact("inside", &[]);
+    assert_same(all.size("nodule"), ellipsoid([8.0, 5.0, 1.5]));
+    assert_same(all.size("floating"), ellipsoid([20.0, 12.0, 4.0]));
+    let older = contact("inside", &["younger", "nodule", "floating"]);
+    let within = all.size("older") + all.size("younger") + all.size("nodule");
+    assert_same(within, older.size("older"));
+    assert_eq!(all.solids(), 5);
+}
+
+#[test]
+fn bodies_that_touch_nothing_are_whole() {
+    let all = contact("apart", &[]);
+    assert_same(all.size("ball"), ellipsoid([6.0; 3]));
+    assert_same(all.size("nodule"), ellipsoid([15.0, 9.0, 3.0]));
+    for (name, others) in [
+        ("channel", ["deep", "nodule", "ball"]),
+        ("deep", ["channel", "nodule", "ball"]),
+    ] {
+        assert_same(all.size(name), contact("apart", &others).size(name));
+    }
+}
+
+#[test]
+fn a_body_may_be_cut_in_pieces_and_another_by_a_corner_of_the_block() {
+    let all = contact("pieces", &[]);
+    assert_eq!(all.pieces("older"), 4);
+    assert_same(
+        all.size("younger"),
+        contact("pieces", &["older", "corner"]).size("younger"),
+    );
+    assert!(all.size("corner") < 0.5 * ellipsoid([24.0, 16.0, 7.0]));
+}
+
+#[test]
+fn a_body_may_be_removed_altogether() {
+    let all = contact("removed", &[]);
+    assert_eq!([all.pieces("older"), all.pieces("nodule")], [0, 0]);
+    assert_same(
+        all.size("younger"),
+        contact("removed", &["older", "nodule"]).size("younger"),
+    );
+}
+
+#[test]
+fn two_engines_that_know_nothing_of_each_other_make_the_same_solids() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/channel-belt/channel-belt.toml");
+    for seed in [3, 8] {
+        let mut source = Source::read(&path).unwrap();
+        source.set("feature.channel.count=6".to_owned());
+        source.set(format!("seed={seed}"));
+        let [ours, theirs] =
+            [Engine::Partition, Engine::Occt].map(|engine| assemble(&source, &[], engine).unwrap());
+        let pieces = [&ours, &theirs].map(|one| &one.assembly.measured.pieces);
+        assert_eq!(pieces[0].len(), pieces[1].len());
+        for (a, b) in pieces[0].iter().zip(pieces[1]) {
+            assert_eq!(a.volume, b.volume);
+            // The curves of a general fuse are fitted, to some 1e-5 m.
+            assert!(
+                (a.size - b.size).abs() < 1e-6 * a.size,
+                "{} and {}",
+                a.size,
+                b.size
+            );
+        }
+    }
+}
+
+#[test]
+fn bodies_that_only_touch_are_refused_by_the_partition_which_names_them() {
+    let text = "name = \"Touch\"\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-24, 0]\nfacies = \"mud\"\n\
+        [facies.mud]\n[facies.sand]\n\
+        [[feature]]\nid = \"ball\"\nkind = \"ellipsoid\"\nfacies = \"sand\"\n\
+        semi_axes = [10, 10, 10]\ncenter = [200, 150, -12]\n\
+        [[feature]]\nid = \"beside\"\nkind = \"ellipsoid\"\nfacies = \"sand\"\n\
+        semi_axes = [5, 5, 5]\ncenter = [215, 150, -12]\n";
+    let source = Source::from_text("touch.toml", text, Format::Toml);
+    let Err(error) = assemble(&source, &[], Engine::Partition) else {
+        panic!("a contact in a point is not noticed");
+    };
+    let words = error.to_string();
+    for expected in ["ball", "beside", "undecided"] {
+        assert!(words.contains(expected), "{words}");
+    }
+}
