@@ -11,6 +11,8 @@ mod belt;
 
 #[cfg(feature = "occt")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    use std::io::Write;
+
     let mut args = std::env::args().skip(1);
     let (Some(model), Some(count), Some(engine)) = (args.next(), args.next(), args.next()) else {
         return Err("a model file, the number of channels, and partition or occt".into());
@@ -24,7 +26,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let brep = args.next();
     let belt = belt::realise(&model, count.parse()?)?;
     for _ in 0..runs {
-        println!("{}", timed::run(&belt, engine, brep.as_deref())?);
+        let result = timed::run(&belt, engine, brep.as_deref())?;
+        writeln!(std::io::stdout(), "{result}")?;
     }
     Ok(())
 }
@@ -39,6 +42,7 @@ mod timed {
 
     use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
     use clinothem::export::brep;
+    use clinothem::export::report::{Parts, Report};
     use clinothem::model::Model;
     use clinothem::model::owner::Owners;
     use clinothem::model::plan::AssemblyPlan;
@@ -62,7 +66,20 @@ mod timed {
         let owners = Owners::new(realisation, &model.domain)?;
         let made = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
         let seconds = started.elapsed().as_secs_f64();
-        let result = result(&plan, &made, seconds);
+        // Before the report and the file, which are in neither time nor memory.
+        let mut result = result(&plan, &made, seconds);
+        let report = Report::new(Parts {
+            model,
+            realisation,
+            plan: &plan,
+            assembly: &made,
+            level: options.proof,
+        });
+        let program = &report.program;
+        result["version"] = json!(format!(
+            "clinothem {} on OpenCASCADE {}",
+            program.version, program.occt
+        ));
         if let Some(path) = file {
             brep::write(path.as_ref(), &made)?;
         }

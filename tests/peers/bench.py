@@ -117,13 +117,24 @@ def kept(path):
     return {(program, count): entry for program, count, entry in json.loads(path.read_text())}
 
 
+def command(arguments):
+    """The command as others would repeat it: what is kept, and a note, are ours alone."""
+    shown, rest = ["script/bench-peers"], iter(arguments)
+    for argument in rest:
+        if argument in ("--keep", "--note"):
+            next(rest, None)
+        else:
+            shown.append(argument)
+    return shlex.join(shown)
+
+
 def main():
     parser = argparse.ArgumentParser(
         prog="script/bench-peers", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     numbers = lambda text: [int(one) for one in text.split(",")]
     parser.add_argument("--counts", type=numbers, default=[5, 20, 60, 200], help="channels of the belts")
-    parser.add_argument("--runs", type=int, default=5, help="runs of each; fewer where they are slow (default 5)")
+    parser.add_argument("--runs", type=int, default=5, help="runs of each, fewer where they are slow (default 5); 0: none, tables of what is kept")
     parser.add_argument("--only", type=lambda text: text.split(","), default=PROGRAMS, help=", ".join(PROGRAMS))
     parser.add_argument("--limit", type=float, default=600, help="seconds that a run may take (default 600)")
     parser.add_argument("--measure-limit", type=float, default=900, help="the same for measuring a result (default 900)")
@@ -136,22 +147,25 @@ def main():
         parser.error(f"no program {', '.join(unknown)}; there are {', '.join(PROGRAMS)}")
     examples = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release/examples"
     entries = kept(args.keep)
-    over = {program for (program, _), entry in entries.items() if "over" in entry}
+    # From which number of channels a program takes too long.
+    over = {program: count for (program, count), entry in entries.items() if "over" in entry}
     with tempfile.TemporaryDirectory(prefix="clinothem-peers-") as folder:
         bench = Bench(args, Path(folder), examples)
-        for count in sorted(args.counts):
+        for count in sorted(args.counts) if args.runs else []:
+            programs = [one for one in PROGRAMS if one in args.only and (one, count) not in entries]
             bodies = Path(folder) / f"bodies-{count}"
             subprocess.run([examples / "bench_bodies", MODEL, str(count), bodies], check=True)
-            for program in (one for one in PROGRAMS if one in args.only and (one, count) not in entries):
-                entry = {"skipped": True} if program in over else bench.entry(program, count, bodies)
+            for program in programs:
+                hopeless = count > over.get(program, count)
+                entry = {"skipped": True} if hopeless else bench.entry(program, count, bodies)
                 if "over" in entry:
-                    over.add(program)
+                    over[program] = count
                 entries[program, count] = entry
                 if args.keep:
                     args.keep.write_text(json.dumps([[*key, entry] for key, entry in entries.items()]))
                 brief = {key: entry[key] for key in entry if key not in ("volumes", "measured", "stages")}
                 print(f"{count} {program}: {brief}", file=sys.stderr, flush=True)
-    text = report.text(entries, args, "script/bench-peers " + shlex.join(sys.argv[1:]))
+    text = report.text(entries, args, command(sys.argv[1:]))
     print(text)
     if args.write:
         Path(args.write).write_text(text)

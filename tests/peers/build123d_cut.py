@@ -2,10 +2,12 @@
 one, OpenCASCADE's parallel mode is on, and the result is cleaned (build123d's defaults). Solids with boxes apart are not cut
 from each other."""
 
-import importlib.metadata
+from importlib.metadata import version
 
 import race
 from build123d import Compound, export_brep, import_brep
+
+VERSION = f"build123d {version('build123d')} on OpenCASCADE {version('cadquery-ocp')}"
 
 
 def boxed(shape):
@@ -41,4 +43,4 @@ def write(parts, path):
     export_brep(Compound([Compound([solid for solid, _ in part]) for part in parts]), path)
 
 
-race.run(import_brep, work, write, f"build123d {importlib.metadata.version('build123d')}")
+race.run(import_brep, work, write, VERSION)

@@ -2,10 +2,12 @@
 cells: `fuse` keeps the outside only. Splits run one after another and serially, as build123d calls them. Cells with boxes
 apart from the body are not split."""
 
-import importlib.metadata
+from importlib.metadata import version
 
 import race
 from build123d import Compound, Keep, export_brep, import_brep
+
+VERSION = f"build123d {version('build123d')} on OpenCASCADE {version('cadquery-ocp')}"
 
 
 def box(shape):
@@ -30,4 +32,4 @@ def write(cells, path):
     export_brep(Compound(cells), path)
 
 
-race.run(import_brep, work, write, f"build123d {importlib.metadata.version('build123d')}")
+race.run(import_brep, work, write, VERSION)

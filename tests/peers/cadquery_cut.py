@@ -1,10 +1,12 @@
 """cadquery: each body, cut to the block, is cut from all older ones and the block. Cuts run one after another; inside of
 one, OpenCASCADE's parallel mode is on (cadquery's default). Bodies with boxes apart are not cut from each other."""
 
-import importlib.metadata
+from importlib.metadata import version
 
 import race
 from cadquery import Compound, Shape
+
+VERSION = f"cadquery {version('cadquery')} on OpenCASCADE {version('cadquery-ocp')}"
 
 
 def box(shape):
@@ -31,4 +33,4 @@ def write(parts, path):
     Compound.makeCompound([Compound.makeCompound(part.Solids()) for part in parts]).exportBrep(path)
 
 
-race.run(Shape.importBrep, work, write, f"cadquery {importlib.metadata.version('cadquery')}")
+race.run(Shape.importBrep, work, write, VERSION)

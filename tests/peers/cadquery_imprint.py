@@ -1,11 +1,13 @@
 """cadquery: one general fuse of the block and all bodies (`imprint`), parallel inside of OpenCASCADE. Its default, full
 glue, is for shapes that only touch and leaves crossing ones as they are: it is turned off."""
 
-import importlib.metadata
+from importlib.metadata import version
 
 import race
 from cadquery import Shape
 from cadquery.occ_impl.shapes import imprint
+
+VERSION = f"cadquery {version('cadquery')} on OpenCASCADE {version('cadquery-ocp')}"
 
 
 def work(block, bodies):
@@ -17,5 +19,5 @@ race.run(
     Shape.importBrep,
     work,
     lambda cells, path: cells.exportBrep(path),
-    f"cadquery {importlib.metadata.version('cadquery')}",
+    VERSION,
 )

@@ -1,11 +1,16 @@
 """Gmsh: one general fuse of the block and all bodies. Parallel where OpenCASCADE's fuse is (Geometry.OCCParallel)."""
 
+import re
+
 import gmsh
 import race
 
 gmsh.initialize()
 gmsh.option.setNumber("General.Terminal", 0)
 gmsh.option.setNumber("Geometry.OCCParallel", 1)
+
+KERNEL = re.search(r"OCC version: ([\d.]+)", gmsh.option.getString("General.BuildInfo"))
+VERSION = f"Gmsh {gmsh.__version__} on OpenCASCADE {KERNEL[1] if KERNEL else '?'}"
 
 
 def read(path):
@@ -26,4 +31,4 @@ def write(_, path):
     gmsh.write(path)
 
 
-race.run(read, work, write, f"Gmsh {gmsh.__version__}")
+race.run(read, work, write, VERSION)

@@ -27,8 +27,10 @@ from OCP.TopoDS import TopoDS, TopoDS_Iterator, TopoDS_Shape
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 EPS = 1e-8
-# How far inside of a cell it is asked for its body (m), how closely, and at how many of its faces.
-INSIDE, CLOSE, FACES = 1e-3, 1e-7, 3
+# How far inside of a cell it is asked for its body (m; nearer if it is too thin), how closely, at how many of its faces.
+INSIDE, CLOSE, FACES = (1e-3, 1e-5), 1e-7, 3
+# A cell too thin to be asked.
+UNKNOWN = "unknown"
 
 
 def read(path):
@@ -75,8 +77,8 @@ class Fluxes:
         return sum(self.of(face) for face in below(solid, TopAbs_FACE))
 
 
-def points_inside(solid):
-    """Points just inside of a solid, beside a few of its faces."""
+def points_inside(solid, depth):
+    """Points so far inside of a solid, beside a few of its faces."""
     context, classifier = IntTools_Context(), BRepClass3d_SolidClassifier(solid)
     found = 0
     for one in below(solid, TopAbs_FACE):
@@ -87,7 +89,7 @@ def points_inside(solid):
         BRepGProp_Face(face).Normal(uv.X(), uv.Y(), at, outward)
         if outward.Magnitude() == 0:
             continue
-        point = at.Translated(outward.Normalized() * -INSIDE)
+        point = at.Translated(outward.Normalized() * -depth)
         classifier.Perform(point, CLOSE)
         if classifier.State() == TopAbs_IN:
             yield point
@@ -117,8 +119,11 @@ class Bodies:
         return next((body for body in range(len(self.shapes) - 1, 0, -1) if self.holds(body, point)), 0)
 
     def of(self, solid):
-        votes = Counter(self.at(point) for point in points_inside(solid))
-        return votes.most_common(1)[0][0] if votes else None
+        for depth in INSIDE:
+            votes = Counter(self.at(point) for point in points_inside(solid, depth))
+            if votes:
+                return votes.most_common(1)[0][0]
+        return UNKNOWN
 
 
 def labelled(result, kind, bodies):
@@ -140,19 +145,19 @@ def main():
     middle = gp_Pnt(*((getattr(corner[0], c)() + getattr(corner[1], c)()) / 2 for c in "XYZ"))
     fluxes = Fluxes(middle)
     block = fluxes.volume(bodies.shapes[0])
-    volumes, uses, solids = {}, Counter(), 0
+    sizes, uses, solids = Counter(), Counter(), 0
     for body, solid in labelled(read(path), kind, bodies):
         if body is None:
             continue
         solids += 1
-        volumes[bodies.names[body]] = volumes.get(bodies.names[body], 0.0) + fluxes.volume(solid)
+        sizes[body] += fluxes.volume(solid)
         uses.update({fluxes.index(face) for face in below(solid, TopAbs_FACE)})
     told = {
         "solids": solids,
         "faces": len(uses),
         "shared_faces": sum(count > 1 for count in uses.values()),
-        "volume_error": sum(volumes.values()) - block,
-        "volumes": volumes,
+        "volume_error": sum(sizes.values()) - block,
+        "volumes": {bodies.names[body]: size for body, size in sizes.items() if body != UNKNOWN},
     }
     print(json.dumps(told))
 
