@@ -105,6 +105,9 @@ class Bench:
             "others": statistics.mean(run["others"] for run in runs),
             "runs": len(runs),
         }
+        if "stages" in entry:
+            stage = lambda name: statistics.median(run["stages"][name] for run in runs)
+            entry["stages"] = {name: stage(name) for name in entry["stages"]}
         entry["measured"] = self.measure(program, bodies, result)
         result.unlink()
         return entry
