@@ -63,5 +63,21 @@ find_rust() {
         die "no Rust toolchain: install 1.88 or newer as https://rustup.rs says, then run this again"
 }
 
+# Makes the Python environment of the cross-checks, .venv in the root, and names its Python in `python`.
+make_python() {
+    local requirements=$root/tests/crosscheck/requirements.txt
+    python=$root/.venv/bin/python
+    if ! "$python" -c 'import pip' 2>/dev/null; then
+        rm -rf "$root/.venv"
+        python3 -m venv "$root/.venv"
+    fi
+    # pip is asked only when what we want has changed.
+    if ! cmp -s "$requirements" "$root/.venv/requirements.txt"; then
+        say "installing ${requirements#"$root"/} into .venv"
+        "$python" -m pip install --quiet --disable-pip-version-check -r "$requirements"
+        cp "$requirements" "$root/.venv/requirements.txt"
+    fi
+}
+
 # Cargo's folder of outputs.
 target_folder() { printf '%s\n' "${CARGO_TARGET_DIR:-$root/target}"; }

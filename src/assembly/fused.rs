@@ -1,6 +1,6 @@
 //! The general fuse as engine: a ladder of remedies, each another way of giving the same bodies to the kernel.
 
-use super::kernel::{self, Cancel, FuseError, FuseJob, FuseReport, Solids};
+use super::kernel::{self, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids};
 use super::shapes::{self, Cut};
 use super::worker::{self, WorkerError};
 use super::{AssemblyError, Engine, Failed, Options};
@@ -151,6 +151,18 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
         threads,
         fuzzy: remedy.fuzzy,
     }
+}
+
+/// The domain's box as volume 0 and every body as a solid, as the first attempt gives them to the kernel.
+pub(super) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, Shape)>, String> {
+    let job = job(plan, &LADDER[0], 0);
+    let solids = kernel::arguments(&job).map_err(|error| explain(&error, plan))?;
+    let first_shell = 1 + job.above_lids.len();
+    let domain = (0, solids[0].clone());
+    let of_body = |body: &PlannedBody| (body.volume, solids[first_shell + body.shell].clone());
+    Ok(std::iter::once(domain)
+        .chain(plan.bodies.iter().map(of_body))
+        .collect())
 }
 
 /// A fuse's failure with the volumes' names.

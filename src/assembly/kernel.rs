@@ -146,7 +146,8 @@ pub(crate) fn fuse(
     Ok((solids, report))
 }
 
-fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
+/// What is fused, as the kernel's solids: domain, lids, shells.
+pub(super) fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
     let mut arguments = vec![box_solid(job.domain[0], job.domain[1])?];
     for [low, high] in &job.above_lids {
         arguments.push(box_solid(*low, *high)?);

@@ -171,6 +171,11 @@ fn list(failed: &[Failed]) -> String {
         .join("\n")
 }
 
+/// What there is before anything is assembled: the domain as volume 0, then each body whole, by its volume.
+pub(crate) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, kernel::Shape)>, String> {
+    fused::bodies(plan)
+}
+
 /// What an engine has made, before it is proven.
 struct Candidate {
     engine: Engine,

@@ -1,6 +1,8 @@
 //! Export: one output format per file.
 
 #[cfg(feature = "occt")]
+pub mod bodies;
+#[cfg(feature = "occt")]
 pub mod brep;
 #[cfg(feature = "occt")]
 pub mod mesh;

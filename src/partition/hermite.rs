@@ -160,6 +160,14 @@ impl Branch {
         at(&self.control(piece), s)
     }
 
+    /// Value and derivative by arc length.
+    pub(super) fn both(&self, t: f64) -> [[f64; PARTS]; 2] {
+        let (piece, s) = self.locate(t);
+        let length = self.lengths[piece + 1] - self.lengths[piece];
+        let points = self.control(piece);
+        [at(&points, s), slope(&points, s).map(|d| d / length)]
+    }
+
     /// The derivative by arc length.
     pub(super) fn derivative(&self, t: f64) -> [f64; PARTS] {
         let (piece, s) = self.locate(t);

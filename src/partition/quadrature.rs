@@ -180,11 +180,12 @@ fn of_flat_face(
             let is_rational = matches!(source, Source::Edge(edge) if geometry.regions.edges[edge].curve.is_rational());
             let rule = if is_rational { RULES[3] } else { RULES[2] };
             for pair in stops.windows(2) {
-                let own = integrate(rule, pair[0], pair[1], |t| Integral {
-                    area: normal.dot(
-                        (geometry.point(source, t) - origin).cross(geometry.tangent(source, t)),
-                    ),
-                    flux: 0.0,
+                let own = integrate(rule, pair[0], pair[1], |t| {
+                    let (point, tangent) = geometry.point_and_tangent(source, t);
+                    Integral {
+                        area: normal.dot((point - origin).cross(tangent)),
+                        flux: 0.0,
+                    }
                 });
                 area += sign * own.area;
             }

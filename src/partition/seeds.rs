@@ -19,7 +19,7 @@ const MOST: usize = 400_000;
 const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
 const FLAT: f64 = 0.35;
-/// Sizes of two patches that are compared may differ by this factor.
+/// While patches are halved their sizes are kept within this factor.
 const RATIO: f64 = 4.0;
 
 struct Piece<'a> {
@@ -108,8 +108,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
         if let (Some((axis_a, lean_a)), Some((axis_b, lean_b))) = (a.normals, b.normals) {
             let flat = lean_a < FLAT && lean_b < FLAT;
-            let alike = size_a < RATIO * size_b && size_b < RATIO * size_a;
-            if flat && alike && axis_a.cross(axis_b).length() > lean_a + lean_b {
+            if flat && axis_a.cross(axis_b).length() > lean_a + lean_b {
                 self.land(a, b);
                 return;
             }
@@ -162,15 +161,22 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if self.branches.iter().any(known) {
             return true;
         }
-        let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
-        let mut q = [u, v, s, t];
-        let (pa, au, av) = a.patch.first_jet(u, v);
-        let (pb, bu, bv) = b.patch.first_jet(s, t);
-        let (na, nb) = (au.cross(av), bu.cross(bv));
-        let Some(tangent) = na.cross(nb).try_normalize() else {
+        // From the middle of the smaller patch, and the place on the larger one that is nearest to it.
+        let a_is_smaller = a.patch.bounds.extent() <= b.patch.bounds.extent();
+        let (small, large) = if a_is_smaller { (a, b) } else { (b, a) };
+        let [u, v] = small.patch.middle();
+        let (point, su, sv) = small.patch.first_jet(u, v);
+        let [s, t] = nearest(&large.patch, point);
+        let (_, lu, lv) = large.patch.first_jet(s, t);
+        let Some(tangent) = su.cross(sv).cross(lu.cross(lv)).try_normalize() else {
             return false;
         };
-        let closing = Closing::Plane(tangent, 0.5 * (pa + pb));
+        let mut q = if a_is_smaller {
+            [u, v, s, t]
+        } else {
+            [s, t, u, v]
+        };
+        let closing = Closing::Plane(tangent, point);
         if !self.pair.newton(&mut q, closing, 10) || !within(&q) {
             return false;
         }
@@ -230,6 +236,24 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     pub(super) fn gave_up(&self) -> bool {
         self.halvings > MOST
     }
+}
+
+/// About where a nearly flat patch is nearest to a point.
+fn nearest(patch: &Patch, point: glam::DVec3) -> [f64; 2] {
+    let [mut u, mut v] = patch.middle();
+    for _ in 0..2 {
+        let (p, pu, pv) = patch.first_jet(u, v);
+        let offset = point - p;
+        let (uu, uv, vv) = (pu.dot(pu), pu.dot(pv), pv.dot(pv));
+        let determinant = uu * vv - uv * uv;
+        if !(determinant > 0.0) {
+            break;
+        }
+        let (ru, rv) = (offset.dot(pu), offset.dot(pv));
+        u = (u + (vv * ru - uv * rv) / determinant).clamp(patch.u[0], patch.u[1]);
+        v = (v + (uu * rv - uv * ru) / determinant).clamp(patch.v[0], patch.v[1]);
+    }
+    [u, v]
 }
 
 /// Whether a plane along either patch separates both, by more than the slack.

@@ -81,10 +81,10 @@ impl Geometry<'_> {
         match source {
             Source::Edge(edge) => self.regions.edges[edge].sides[side].at(sheets, t),
             Source::Crossing(at) => {
-                let branch = &self.crossings.curves[at].branch;
+                let [value, slope] = self.crossings.curves[at].branch.both(t);
                 (
-                    hermite::on_sheet(&branch.value(t), side),
-                    hermite::on_sheet(&branch.derivative(t), side),
+                    hermite::on_sheet(&value, side),
+                    hermite::on_sheet(&slope, side),
                 )
             }
             Source::Pole(at) => {
@@ -97,6 +97,18 @@ impl Geometry<'_> {
                     (DVec2::new(t, fixed), DVec2::X)
                 }
             }
+        }
+    }
+
+    /// Point and derivative at t.
+    pub(super) fn point_and_tangent(&self, source: Source, t: f64) -> (DVec3, DVec3) {
+        match source {
+            Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t),
+            Source::Crossing(at) => {
+                let [value, slope] = self.crossings.curves[at].branch.both(t);
+                (hermite::space(&value), hermite::space(&slope))
+            }
+            Source::Pole(at) => (self.regions.poles[at].point, DVec3::ZERO),
         }
     }
 

@@ -67,6 +67,12 @@ def fine_volume(shape):
     return props.Mass()
 
 
+def fine_area(face):
+    props = GProp_GProps()
+    BRepGProp.SurfaceProperties_s(face, props, 1e-6, False)
+    return props.Mass()
+
+
 def check_volumes(build, parts, volume_of, relative):
     """Compares the solids of each volume in the order of their size; gives the sum."""
     found = {name: [] for name in build.volumes}
@@ -210,7 +216,7 @@ def test_the_contacts_of_the_brep_are_the_reports_neighbours(build, brep):
     faces, told = uses(solids)
     contacts, outer = Counter(), Counter()
     for index, owners in told.items():
-        area = bd.Face(faces(index)).area
+        area = fine_area(faces(index))
         if len(owners) == 1:
             outer[names[owners[0][0]]] += area
         else:
@@ -220,10 +226,9 @@ def test_the_contacts_of_the_brep_are_the_reports_neighbours(build, brep):
     promised = {(v.name, other): area for v in build.volumes.values() for other, area in v.neighbours.items()}
     assert contacts.keys() == promised.keys()
     for pair, area in promised.items():
-        # Areas are integrated roughly here.
-        assert contacts[pair] == pytest.approx(area, rel=build.rough, abs=1e-3), pair
+        assert contacts[pair] == pytest.approx(area, rel=FINE, abs=1e-3), pair
     for volume in build.volumes.values():
-        assert outer[volume.name] == pytest.approx(volume.outer_area, rel=build.rough, abs=1e-3), volume.name
+        assert outer[volume.name] == pytest.approx(volume.outer_area, rel=FINE, abs=1e-3), volume.name
 
 
 def test_the_shared_flavour_keeps_common_faces_and_its_shells_close_into_the_solids(build, shared):

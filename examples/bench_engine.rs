@@ -1,0 +1,127 @@
+//! Times one engine on a channel belt, from control nets to proven solids in memory: a line of JSON per run.
+//!
+//! `cargo run --release --example bench_engine MODEL COUNT partition|occt [RUNS [BREP]]`
+//!
+//! The clock runs over the plan, the point evaluator, the assembly and the fast proof. Both engines run in this
+//! process with all of the machine's processors: the general fuse in no child process, so that its memory counts.
+//! After the clock, the solids are written as BREP if a file is named.
+
+#[cfg(feature = "occt")]
+mod belt;
+
+#[cfg(feature = "occt")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    use std::io::Write;
+
+    let mut args = std::env::args().skip(1);
+    let (Some(model), Some(count), Some(engine)) = (args.next(), args.next(), args.next()) else {
+        return Err("a model file, the number of channels, and partition or occt".into());
+    };
+    let engine = match engine.as_str() {
+        "partition" => clinothem::assembly::Engine::Partition,
+        "occt" => clinothem::assembly::Engine::Occt,
+        other => return Err(format!("no engine `{other}`; there are partition and occt").into()),
+    };
+    let runs = args.next().map_or(Ok(1), |runs| runs.parse())?;
+    let brep = args.next();
+    let belt = belt::realise(&model, count.parse()?)?;
+    for _ in 0..runs {
+        let result = timed::run(&belt, engine, brep.as_deref())?;
+        writeln!(std::io::stdout(), "{result}")?;
+    }
+    Ok(())
+}
+
+#[cfg(not(feature = "occt"))]
+fn main() {}
+
+#[cfg(feature = "occt")]
+mod timed {
+    use std::error::Error;
+    use std::time::Instant;
+
+    use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
+    use clinothem::export::brep;
+    use clinothem::export::report::{Parts, Report};
+    use clinothem::model::Model;
+    use clinothem::model::owner::Owners;
+    use clinothem::model::plan::AssemblyPlan;
+    use clinothem::model::realisation::Realisation;
+    use serde_json::{Map, Value, json};
+
+    pub(crate) fn run(
+        (model, realisation): &(Model, Realisation),
+        engine: Engine,
+        file: Option<&str>,
+    ) -> Result<Value, Box<dyn Error>> {
+        let options = Options {
+            engine,
+            child: None,
+            threads: 0,
+            proof: proof::Level::Fast,
+            seed: model.seed,
+        };
+        let started = Instant::now();
+        let plan = AssemblyPlan::new(realisation, &model.domain)?;
+        let owners = Owners::new(realisation, &model.domain)?;
+        let made = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
+        let seconds = started.elapsed().as_secs_f64();
+        // Before the report and the file, which are in neither time nor memory.
+        let mut result = result(&plan, &made, seconds);
+        let report = Report::new(Parts {
+            model,
+            realisation,
+            plan: &plan,
+            assembly: &made,
+            level: options.proof,
+        });
+        let program = &report.program;
+        result["version"] = json!(format!(
+            "clinothem {} on OpenCASCADE {}",
+            program.version, program.occt
+        ));
+        if let Some(path) = file {
+            brep::write(path.as_ref(), &made)?;
+        }
+        Ok(result)
+    }
+
+    fn result(plan: &AssemblyPlan, made: &Assembly, seconds: f64) -> Value {
+        let measured = &made.measured;
+        let volumes: Map<String, Value> = (0..plan.names.len())
+            .filter(|volume| !measured.pieces_of(*volume).is_empty())
+            .map(|volume| (plan.names[volume].clone(), json!(measured.size_of(volume))))
+            .collect();
+        let sum: f64 = measured.pieces.iter().map(|piece| piece.size).sum();
+        let stages: Map<String, Value> = made
+            .timings
+            .iter()
+            .map(|(stage, time)| ((*stage).to_owned(), json!(time.as_secs_f64())))
+            .collect();
+        json!({
+            "seconds": seconds,
+            "stages": stages,
+            "peak_mib": peak_mib(),
+            "solids": measured.pieces.len(),
+            "faces": measured.faces,
+            "edges": measured.edges,
+            "crossing_pairs": made.crossing_bodies,
+            "volume_error": sum - (plan.high - plan.low).element_product(),
+            "engine": made.engine.name(),
+            "remedy": made.remedy,
+            "failed_attempts": made.failed.len(),
+            "proven": made.proof.holds(),
+            "volumes": volumes,
+        })
+    }
+
+    /// Peak resident memory of this process, where the system tells (Linux).
+    fn peak_mib() -> Option<f64> {
+        let status = std::fs::read_to_string("/proc/self/status").ok()?;
+        let line = status
+            .lines()
+            .find_map(|line| line.strip_prefix("VmHWM:"))?;
+        let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+        Some(kib / 1024.0)
+    }
+}

@@ -1,0 +1,206 @@
+"""The tables of docs/benchmarks.md."""
+
+import math
+import os
+import platform
+from pathlib import Path
+
+NAMES = {
+    "partition": "**clinothem, partition**",
+    "occt": "clinothem, `--engine occt`",
+    "gmsh": "Gmsh `occ.fragment`",
+    "cadquery-imprint": "cadquery `imprint`",
+    "cadquery-cut": "cadquery `cut`",
+    "build123d-split": "build123d `split`",
+    "build123d-cut": "build123d `-`",
+}
+# A body of which a program has less than half is missing; one that is off by more than this share is wrong.
+HALF, WRONG = 0.5, 1e-4
+
+
+def machine():
+    """The kind of machine, without its name."""
+    model = "processor unknown"
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.split(":", 1)[1].strip()
+            break
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    try:
+        system = platform.freedesktop_os_release()["PRETTY_NAME"]
+    except OSError:
+        system = platform.system()
+    return f"{model}, {os.cpu_count()} processors, {memory:.0f} GiB, {system}"
+
+
+def seconds(value):
+    return f"{value:.3f}" if value < 1 else f"{value:.2f}" if value < 100 else f"{value:.0f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(row) + " |" for row in [head, *rows]]
+    lines.insert(1, "|---" + "|--:" * (len(head) - 1) + "|")
+    return "\n".join(lines)
+
+
+def losses(measured, reference):
+    """Bodies that are missing, and those that are wrong, against our report's volumes."""
+    missing, wrong = [], []
+    for name, volume in reference.items():
+        found = measured["volumes"].get(name, 0.0)
+        if found < HALF * volume:
+            missing.append(name)
+        elif abs(found - volume) > WRONG * volume:
+            wrong.append(name)
+    return missing, wrong
+
+
+def row(program, entry, ours, reference):
+    cells = [NAMES[program]]
+    if "skipped" in entry:
+        return cells + ["not run", *[""] * 8]
+    if "over" in entry:
+        ratio = f"> {entry['over'] / ours:.0f}" if ours else ""
+        return cells + [f"> {entry['over']:g}", ratio, *[""] * 7]
+    if "failed" in entry:
+        return cells + ["failed", *[""] * 8]
+    ratio = f"{entry['seconds'] / ours:.1f}" if ours else ""
+    before = f" ({entry['before_mib']:.0f})" if "before_mib" in entry else ""
+    cells += [seconds(entry["seconds"]), ratio, str(entry["runs"]), f"{entry['peak_mib']:.0f}{before}"]
+    measured = entry["measured"]
+    if "solids" not in measured:
+        solids = [str(entry.get("solids", "")), f"{entry['volume_error']:.0e} *" if "volume_error" in entry else ""]
+        return cells + [*solids, "not measured", "", ""]
+    cells += [str(measured["solids"]), f"{measured['volume_error']:.0e}", str(measured["shared_faces"])]
+    if not reference:
+        return [*cells, "", ""]
+    missing, wrong = losses(measured, reference)
+    return [*cells, str(len(missing)), str(len(wrong))]
+
+
+HEAD = ["", "seconds", "÷ partition", "runs", "peak MiB", "solids", "volume error m³", "shared faces", "missing", "wrong"]
+
+
+def of_size(entries, count):
+    ours = entries.get(("partition", count), {})
+    reference = ours.get("volumes")
+    rows, details = [], []
+    for program in NAMES:
+        entry = entries.get((program, count))
+        if entry is None:
+            continue
+        rows.append(row(program, entry, ours.get("seconds"), reference))
+        if "failed" in entry:
+            details.append(f"{NAMES[program]} failed: `{entry['failed']}`")
+        measured = entry.get("measured", {})
+        if reference and "volumes" in measured:
+            missing, wrong = losses(measured, reference)
+            off = [f"{name} ({measured['volumes'].get(name, 0.0) - reference[name]:+.1f} m³)" for name in missing + wrong]
+            if off:
+                more = f" and {len(off) - 12} more" if len(off) > 12 else ""
+                details.append(f"{NAMES[program]}, missing or wrong: {', '.join(off[:12])}{more}")
+    lines = [f"## {count} channels", "", table(HEAD, rows), ""]
+    if "edges" in ours:
+        lines += [
+            f"{ours['crossing_pairs']} pairs of bodies cross; the partition made {ours['solids']} solids, {ours['faces']} faces "
+            f"and {ours['edges']} edges, with {ours['failed_attempts']} failed attempts, and "
+            f"{'proved' if ours['proven'] else 'did not prove'} them; its own integrals miss the block by "
+            f"{abs(ours['volume_error']):.0e} m³.",
+            "",
+        ]
+    lines += [f"- {detail}" for detail in details] + ([""] if details else [])
+    return lines
+
+
+def exponent(points):
+    """The slope of log seconds over log channels."""
+    if len(points) < 2:
+        return None
+    x, y = [math.log(n) for n, _ in points], [math.log(t) for _, t in points]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+
+
+def growth(entries, counts):
+    rows = []
+    for program in NAMES:
+        points = [(n, entries[program, n]["seconds"]) for n in counts if "seconds" in entries.get((program, n), {})]
+        slope = exponent(points)
+        if slope is not None:
+            last = exponent(points[-2:])
+            rows.append([NAMES[program], f"{points[0][0]} to {points[-1][0]}", f"{slope:.2f}", f"{last:.2f}"])
+    head = ["", "channels", "exponent", "between the last two sizes"]
+    lines = ["## Growth", "", "Time grows with the number of channels to the power of", "", table(head, rows), ""]
+    ours = [n for n in counts if "edges" in entries.get(("partition", n), {})]
+    if not ours:
+        return lines
+    per_edge = []
+    for n in ours:
+        entry = entries["partition", n]
+        stages = entry["stages"]
+        per_edge.append(
+            [
+                str(n),
+                str(entry["crossing_pairs"]),
+                str(entry["edges"]),
+                f"{1e6 * entry['seconds'] / entry['edges']:.0f}",
+                f"{1e6 * stages['assembly'] / entry['edges']:.0f}",
+                f"{1e6 * stages['proof'] / entry['edges']:.0f}",
+            ]
+        )
+    head = ["channels", "crossing pairs", "edges made", "µs per edge", "of them assembly", "of them proof"]
+    return lines + ["The partition's time per edge that it makes:", "", table(head, per_edge), ""]
+
+
+def busy(entries):
+    others = [entry["others"] for entry in entries.values() if "others" in entry]
+    if not others:
+        return ""
+    mean = sum(others) / len(others)
+    return (
+        f"During the runs other programs kept {mean:.1f} of {os.cpu_count()} processors busy on average "
+        f"({min(others):.1f} to {max(others):.1f})."
+    )
+
+
+def text(entries, args, command):
+    counts = sorted({count for _, count in entries})
+    versions = sorted({entry["version"] for entry in entries.values() if "version" in entry})
+    lines = [
+        "# The same bodies in other programs",
+        "",
+        f"Made by `{command}` on",
+        f"{machine()}, with",
+        f"{', '.join(versions)}.",
+        busy(entries),
+        *([args.note] if args.note else []),
+        "",
+        "The bodies are those of [models/channel-belt](../models/channel-belt), with more or fewer channels: a block of",
+        "1000 × 1000 × 60 m and crossing channels, of which the younger removes the older. Every program makes of them solids",
+        "that fill the block.",
+        "",
+        "- *seconds*: wall clock, medians. Ours runs from control nets to **proven** solids in memory (the plan, the point",
+        "  evaluator, the assembly, the fast proof); theirs from solids in memory (read from BREP before) to solids in memory,",
+        "  unproven. Fragments and cells are not yet merged or assigned to bodies.",
+        f"- A run may take {args.limit:g} s, if the table does not say otherwise. A program that exceeds its limit is not run",
+        "  with more channels.",
+        "- *peak MiB*: of the process; in brackets what it had when the clock started, libraries and bodies included. Our",
+        "  general fuse runs in the same process here, in a child process otherwise.",
+        "- *solids*: inside of the block. Those of `fragment`, `imprint` and `split` are cells, of which a body has many.",
+        "- *volume error*: the sum of all solids less the block, measured for all alike by OpenCASCADE's integrals (eps 1e-8 per",
+        "  face) on the solids written as BREP, and so no better than these integrals. `*`: our own integrals.",
+        "- *shared faces*: one face in two solids, which a mesh needs in order to fit. A cut shares only what it",
+        "  did not split.",
+        f"- *missing*: bodies of which less than half is there; *wrong*: bodies off by more than {WRONG:.0e} of their volume.",
+        "  Both against the volumes of our report; cells belong to the youngest body that holds points inside of them.",
+        "",
+        "What runs in parallel: the partition and the proof (our own threads); in both of our engines, `fragment` (with",
+        "`Geometry.OCCParallel`) and `imprint`, the parts of OpenCASCADE's general fuse that it makes in parallel; within a",
+        "single `cut`, the same. One cut after another is serial, and `split` of build123d is serial throughout. `imprint` is",
+        "called with `glue=None`: its default is for shapes that only touch. build123d has no general fuse that keeps cells,",
+        "so its block is split by one shell after another.",
+        "",
+    ]
+    for count in counts:
+        lines += of_size(entries, count)
+    return "\n".join(lines + growth(entries, counts)).rstrip() + "\n"
