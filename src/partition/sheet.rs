@@ -163,6 +163,10 @@ impl Sheet {
         &self.patches[at]
     }
 
+    pub(super) fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
     pub(super) fn bounds(&self) -> &Bounds {
         &self.tree[self.root()].bounds
     }

@@ -4,8 +4,10 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Label;
+use super::bounds::Bounds;
 use super::faces::{Face as TracedFace, HalfEdge, encloses};
 use super::hermite::{PARTS, on_sheet};
+use super::patch::{Along, Patch};
 use super::quadrature::Integral;
 use super::sheet::Sheet;
 use super::solids::{Parts, Solid as JoinedSolid};
@@ -147,7 +149,7 @@ pub struct Solid {
     pub shells: Vec<Vec<(usize, bool)>>,
     /// Its size (m³).
     pub size: f64,
-    /// A box that holds its edges (m).
+    /// A box that holds it (m).
     pub bounds: (DVec3, DVec3),
 }
 
@@ -158,8 +160,13 @@ impl Topology {
             .par_iter()
             .map(|face| shape(parts, face))
             .collect();
+        let curves: Vec<ArcCurves> = (0..parts.arcs.len())
+            .into_par_iter()
+            .map(|at| arc_curves(parts, at))
+            .collect();
         let mut builder = Builder {
             parts,
+            curves,
             topology: Self::default(),
             planes: vec![None; parts.geometry.regions.sheets.len()],
             vertices: vec![None; parts.tracks.points.len()],
@@ -181,40 +188,111 @@ impl Topology {
         for (face, samples) in topology.faces.iter_mut().zip(samples) {
             face.samples = samples;
         }
+        let boxes: Vec<Bounds> = parts
+            .faces
+            .par_iter()
+            .map(|face| bounds(&parts.geometry.regions.sheets[face.sheet], face))
+            .collect();
         topology.solids = solids
             .into_iter()
             .map(|solid| {
-                let bounds = topology.bounds(parts, &solid);
+                let faces = solid.shells[0].iter();
+                let bounds = faces.fold(Bounds::EMPTY, |all, (face, _)| all.and(boxes[*face]));
                 Solid {
                     label: solid.label,
                     shells: solid.shells,
                     size: solid.volume,
-                    bounds,
+                    bounds: (bounds.low, bounds.high),
                 }
             })
             .collect();
         topology
     }
+}
 
-    /// The box of a solid's faces, by points of their loops and, where a face is curved, of its inside.
-    fn bounds(&self, parts: &Parts<'_>, solid: &JoinedSolid) -> (DVec3, DVec3) {
-        let mut bounds = super::bounds::Bounds::EMPTY;
-        for (face, _) in &solid.shells[0] {
-            let own = &parts.faces[*face];
-            let sheet = &parts.geometry.regions.sheets[own.sheet];
-            for place in own.polygons.iter().flatten() {
-                bounds = bounds.with(sheet.point(place.x, place.y));
-            }
-            for sample in &self.faces[*face].samples {
-                bounds = bounds.with(sample.point);
-            }
+/// A box that holds a face: of the hulls of those parts of its patches that its outer loop surrounds.
+fn bounds(sheet: &Sheet, traced: &TracedFace) -> Bounds {
+    let outer = &traced.polygons[0];
+    let mut bounds = Bounds::of(outer.iter().map(|place| sheet.point(place.x, place.y)));
+    if sheet.plane.is_none() {
+        let low = outer.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
+        let high = outer
+            .iter()
+            .fold(DVec2::NEG_INFINITY, |high, p| high.max(*p));
+        for patch in sheet.patches() {
+            bounds = bounds.and(hull(patch, [low, high], HALVINGS));
         }
-        (bounds.low, bounds.high)
+    }
+    bounds
+}
+
+/// How often a patch that a face covers in part is halved each way for its box.
+const HALVINGS: usize = 2;
+
+fn hull(patch: &Patch, [low, high]: [DVec2; 2], halvings: usize) -> Bounds {
+    let (from, to) = (
+        DVec2::new(patch.u[0], patch.v[0]),
+        DVec2::new(patch.u[1], patch.v[1]),
+    );
+    if from.cmpge(high).any() || to.cmple(low).any() {
+        return Bounds::EMPTY;
+    }
+    if halvings == 0 || (from.cmpge(low).all() && to.cmple(high).all()) {
+        return patch.bounds;
+    }
+    let quarters = patch.halves(Along::U).map(|half| half.halves(Along::V));
+    quarters.iter().flatten().fold(Bounds::EMPTY, |all, part| {
+        all.and(hull(part, [low, high], halvings - 1))
+    })
+}
+
+/// The curves of an arc, in space and on both sheets, until they are taken.
+struct ArcCurves {
+    space: Option<CurveShape>,
+    on: [Option<PlaneCurve>; 2],
+}
+
+fn arc_curves(parts: &Parts<'_>, at: usize) -> ArcCurves {
+    let arc = &parts.arcs[at];
+    let geometry = parts.geometry;
+    let source = parts.tracks.tracks[arc.track].source;
+    if let Source::Crossing(index) = source {
+        let (knots, points) = geometry.crossings.curves[index].branch.spline(arc.t);
+        let place = |p: &[f64; PARTS]| DVec3::new(p[0], p[1], p[2]);
+        let on = |side: usize| {
+            Some(PlaneCurve::Computed {
+                knots: knots.clone(),
+                points: points.iter().map(|p| on_sheet(p, side)).collect(),
+            })
+        };
+        return ArcCurves {
+            on: [on(0), on(1)],
+            space: Some(CurveShape::Computed {
+                points: points.iter().map(place).collect(),
+                knots: knots.clone(),
+            }),
+        };
+    }
+    let line = |side: usize| {
+        let (origin, direction) = geometry.on_sheet(source, side, 0.0);
+        Some(PlaneCurve::Line { origin, direction })
+    };
+    let space = match source {
+        Source::Edge(edge) => Some(CurveShape::Known(part(
+            &geometry.regions.edges[edge].curve,
+            arc.t,
+        ))),
+        Source::Crossing(_) | Source::Pole(_) => None,
+    };
+    ArcCurves {
+        on: [line(0), line(1)],
+        space,
     }
 }
 
 struct Builder<'a> {
     parts: &'a Parts<'a>,
+    curves: Vec<ArcCurves>,
     topology: Topology,
     /// Flat sheets serve all of their faces.
     planes: Vec<Option<usize>>,
@@ -290,23 +368,11 @@ impl Builder<'_> {
         let arc = &self.parts.arcs[at];
         let geometry = self.parts.geometry;
         let source = self.parts.tracks.tracks[arc.track].source;
-        let mut deviation = 0.0;
-        let curve = match source {
-            Source::Pole(_) => None,
-            Source::Edge(edge) => Some(CurveShape::Known(part(
-                &geometry.regions.edges[edge].curve,
-                arc.t,
-            ))),
-            Source::Crossing(index) => {
-                let branch = &geometry.crossings.curves[index].branch;
-                deviation = branch.deviation;
-                let (knots, points) = branch.spline(arc.t);
-                let place = |p: &[f64; PARTS]| DVec3::new(p[0], p[1], p[2]);
-                let points = points.iter().map(place).collect();
-                Some(CurveShape::Computed { knots, points })
-            }
+        let deviation = match source {
+            Source::Crossing(index) => geometry.crossings.curves[index].branch.deviation,
+            Source::Edge(_) | Source::Pole(_) => 0.0,
         };
-        let curve = curve.map(|curve| {
+        let curve = self.curves[at].space.take().map(|curve| {
             self.topology.curves.push(curve);
             self.topology.curves.len() - 1
         });
@@ -353,22 +419,9 @@ impl Builder<'_> {
         if let Some(known) = self.images[at][side] {
             return known;
         }
-        let geometry = self.parts.geometry;
-        let arc = &self.parts.arcs[at];
-        let source = self.parts.tracks.tracks[arc.track].source;
-        let image = match source {
-            Source::Crossing(index) => {
-                let (knots, points) = geometry.crossings.curves[index].branch.spline(arc.t);
-                let place = |p: &[f64; PARTS]| DVec2::new(p[3 + 2 * side], p[4 + 2 * side]);
-                let points = points.iter().map(place).collect();
-                PlaneCurve::Computed { knots, points }
-            }
-            Source::Edge(_) | Source::Pole(_) => {
-                let (origin, direction) = geometry.on_sheet(source, side, 0.0);
-                PlaneCurve::Line { origin, direction }
-            }
-        };
-        self.topology.plane_curves.push(image);
+        self.topology
+            .plane_curves
+            .extend(self.curves[at].on[side].take());
         let made = self.topology.plane_curves.len() - 1;
         self.images[at][side] = Some(made);
         made
