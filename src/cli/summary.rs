@@ -61,10 +61,11 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
     }
     let _ = writeln!(
         out,
-        "\nproven: {} solids, {} faces, {} pairs of bodies cross; remedy: {}",
+        "\nproven: {} solids, {} faces, {} pairs of bodies cross; engine: {}, remedy: {}",
         report.assembly.solids,
         report.assembly.faces,
         report.assembly.crossing_pairs,
+        report.assembly.engine,
         report.assembly.remedy
     );
     for check in &report.proof.checks {
