@@ -69,7 +69,8 @@ def fine_volume(shape):
 
 def fine_area(face):
     props = GProp_GProps()
-    BRepGProp.SurfaceProperties_s(face, props, 1e-6, False)
+    # 1e-6 is off by 1e-5 on some trimmed faces.
+    BRepGProp.SurfaceProperties_s(face, props, 1e-8, False)
     return props.Mass()
 
 
