@@ -178,7 +178,7 @@ fn cross(
     if sector.iter().all(|one| *one == sector[0]) {
         return Vec::new();
     }
-    let tangent = geometry.tangent(track.source, t);
+    let tangent = geometry.point_and_tangent(track.source, t).1;
     let normal = |side: usize| {
         let at = geometry.on_sheet(track.source, side, t).0;
         let (_, u, v) = regions.sheets[track.sheets[side]].first_jet(at.x, at.y);

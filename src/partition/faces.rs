@@ -339,10 +339,7 @@ impl Tracer<'_> {
             let half = &links[*at].half;
             let arc = &self.arcs[half.arc];
             let source = self.tracks.tracks[arc.track].source;
-            let mut stops = vec![arc.t[0]];
-            let inner = self.geometry.breaks(source);
-            stops.extend(inner.into_iter().filter(|t| *t > arc.t[0] && *t < arc.t[1]));
-            stops.push(arc.t[1]);
+            let stops = self.geometry.stops(source, arc.t);
             let each = match source {
                 Source::Crossing(_) => 2,
                 Source::Edge(_) | Source::Pole(_) => 1,

@@ -168,13 +168,6 @@ impl Branch {
         [at(&points, s), slope(&points, s).map(|d| d / length)]
     }
 
-    /// The derivative by arc length.
-    pub(super) fn derivative(&self, t: f64) -> [f64; PARTS] {
-        let (piece, s) = self.locate(t);
-        let length = self.lengths[piece + 1] - self.lengths[piece];
-        slope(&self.control(piece), s).map(|d| d / length)
-    }
-
     /// The parameter of the nearest point to one that lies near the branch, and its distance.
     pub(super) fn project(&self, p: DVec3) -> (f64, f64) {
         let mut best = (0.0, f64::INFINITY);

@@ -160,10 +160,7 @@ fn of_flat_face(
         for half in own {
             let arc = &arcs[half.arc];
             let source = tracks.tracks[arc.track].source;
-            let mut stops = vec![arc.t[0]];
-            let inner = geometry.breaks(source).into_iter();
-            stops.extend(inner.filter(|t| *t > arc.t[0] && *t < arc.t[1]));
-            stops.push(arc.t[1]);
+            let stops = geometry.stops(source, arc.t);
             let ends = arc.t.map(|t| geometry.point(source, t));
             let origin = *origin.get_or_insert(ends[0]);
             let (start, end) = if half.forward {
@@ -262,9 +259,7 @@ impl<'a> Across<'a> {
 
     /// Where the integrand along an arc is not smooth: the curve's own pieces, and knots that it passes.
     fn stops(&self, geometry: Geometry<'_>, source: Source, side: usize, t: [f64; 2]) -> Vec<f64> {
-        let breaks = geometry.breaks(source);
-        let inner = breaks.into_iter().filter(|x| *x > t[0] && *x < t[1]);
-        let mut stops: Vec<f64> = std::iter::once(t[0]).chain(inner).chain([t[1]]).collect();
+        let mut stops = geometry.stops(source, t);
         let running = 1 - self.axis;
         let knots = &self.sheet.knots[running];
         let at = |x: f64| geometry.on_sheet(source, side, x).0[running];

@@ -17,8 +17,8 @@ use super::tracks::{Geometry, Tracks};
 /// One side of a face: 2 × face for the inner side, + 1 for the outer.
 type HalfFace = usize;
 
-/// A connected piece of a volume: shells of faces, the outer one first. `true` = seen against the face's normal
-/// the solid lies in front of it.
+/// A connected piece of a volume: shells of faces, the outer one first. `true` = the solid's outward normal is
+/// against the face's.
 #[derive(Clone, Debug)]
 pub(super) struct Solid {
     pub(super) label: usize,

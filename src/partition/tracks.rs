@@ -60,15 +60,6 @@ impl Geometry<'_> {
         }
     }
 
-    /// The derivative at t.
-    pub(super) fn tangent(&self, source: Source, t: f64) -> DVec3 {
-        match source {
-            Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).1,
-            Source::Crossing(at) => hermite::space(&self.crossings.curves[at].branch.derivative(t)),
-            Source::Pole(_) => DVec3::ZERO,
-        }
-    }
-
     fn edge_segment(&self, edge: usize, t: f64) -> &super::pierce::Segment {
         let segments = &self.regions.edges[edge].segments;
         let inner = &segments[..segments.len() - 1];
@@ -112,8 +103,15 @@ impl Geometry<'_> {
         }
     }
 
+    /// The ends of the smooth pieces of a part of a track.
+    pub(super) fn stops(&self, source: Source, t: [f64; 2]) -> Vec<f64> {
+        let breaks = self.breaks(source).into_iter();
+        let inner = breaks.filter(|x| *x > t[0] && *x < t[1]);
+        std::iter::once(t[0]).chain(inner).chain([t[1]]).collect()
+    }
+
     /// Parameters strictly between which a track is one smooth piece.
-    pub(super) fn breaks(&self, source: Source) -> Vec<f64> {
+    fn breaks(&self, source: Source) -> Vec<f64> {
         match source {
             Source::Edge(edge) => self.regions.edges[edge]
                 .segments
