@@ -228,6 +228,26 @@ impl Curve {
         None
     }
 
+    /// How the parameter of another curve follows from this one's, if both are the same to within a tolerance at
+    /// parameters in proportion, as a curve and its elevated, refined or reversed copy are: shift and scale.
+    pub(crate) fn proportion(&self, other: &Self, tolerance: f64) -> Option<(f64, f64)> {
+        let ((a0, a1), (b0, b1)) = (self.domain(), other.domain());
+        let forward = (b1 - b0) / (a1 - a0);
+        let ways = [(b0 - forward * a0, forward), (b1 + forward * a0, -forward)];
+        ways.into_iter().find(|(shift, scale)| {
+            // Ends first: they tell most curves apart.
+            let same = |t: f64| self.point(t).distance(other.point(shift + scale * t)) <= tolerance;
+            if !(same(a0) && same(a1)) {
+                return false;
+            }
+            let samples = 2 * (self.degree() + other.degree()) + 1;
+            self.knots().distinct().windows(2).all(|pair| {
+                let (from, to) = (pair[0].0, pair[1].0);
+                (0..=samples).all(|k| same(from + (to - from) * k as f64 / samples as f64))
+            })
+        })
+    }
+
     /// The same curve with control point i at p; changes it only for u in `[u_i, u_{i+p+1})`.
     pub fn with_control_point(&self, i: usize, p: DVec3) -> Result<Self, CurveError> {
         self.check_index(i)?;

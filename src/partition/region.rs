@@ -207,12 +207,12 @@ impl Regions {
                 }
                 let partner = open
                     .iter()
-                    .position(|(_, _, other)| alike(other, &curve, tolerance).is_some());
+                    .position(|(_, _, other)| other.proportion(&curve, tolerance).is_some());
                 match partner {
                     None => open.push((sheet, border, curve)),
                     Some(at) => {
                         let (first, first_border, first_curve) = open.remove(at);
-                        let Some((shift, scale)) = alike(&first_curve, &curve, tolerance) else {
+                        let Some((shift, scale)) = first_curve.proportion(&curve, tolerance) else {
                             continue;
                         };
                         let sides = [
@@ -386,26 +386,6 @@ pub(super) fn segments(curve: &Curve) -> Vec<Segment> {
         Segment::new(points, [start, end])
     };
     curve.bezier_segments().iter().map(segment).collect()
-}
-
-/// How the parameter of `b` follows from that of `a`, if they run along each other: shift and scale.
-fn alike(a: &Curve, b: &Curve, tolerance: f64) -> Option<(f64, f64)> {
-    let ((a0, a1), (b0, b1)) = (a.domain(), b.domain());
-    let forward = (b1 - b0) / (a1 - a0);
-    let ways = [(b0 - forward * a0, forward), (b1 + forward * a0, -forward)];
-    ways.into_iter().find(|(shift, scale)| {
-        // Ends first: they tell most curves apart.
-        let same = |t: f64| a.point(t).distance(b.point(shift + scale * t)) <= tolerance;
-        if !(same(a0) && same(a1)) {
-            return false;
-        }
-        let knots = a.knots().distinct();
-        let samples = 2 * (a.degree() + b.degree()) + 1;
-        knots.windows(2).all(|pair| {
-            let (from, to) = (pair[0].0, pair[1].0);
-            (1..=samples).all(|k| same(from + (to - from) * k as f64 / (samples + 1) as f64))
-        })
-    })
 }
 
 /// 1 if the sheet's normal points out of its region, −1 if into it, by points beside it.

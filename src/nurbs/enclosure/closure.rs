@@ -75,8 +75,7 @@ fn same(a: &Edge, b: &Edge, tolerance: f64) -> bool {
     let (a, b) = (&a.curve, &b.curve);
     same_parameters(a, b, tolerance)
         || same_parameters(a, &b.reversed(), tolerance)
-        || same_places(a, b, tolerance)
-        || same_places(a, &b.reversed(), tolerance)
+        || a.proportion(b, tolerance).is_some()
         || (covers(a, b, tolerance) && covers(b, a, tolerance))
 }
 
@@ -88,21 +87,6 @@ fn same_parameters(a: &Curve, b: &Curve, tolerance: f64) -> bool {
             .iter()
             .zip(b.points())
             .all(|(p, q)| p.distance(*q) <= tolerance)
-}
-
-/// Whether two curves run alike with parameters in proportion: what one and its elevated or refined copy do.
-fn same_places(a: &Curve, b: &Curve, tolerance: f64) -> bool {
-    let ((a0, a1), (b0, b1)) = (a.domain(), b.domain());
-    let same = |u: f64| {
-        let v = b0 + (b1 - b0) * (u - a0) / (a1 - a0);
-        a.point(u).distance(b.point(v)) <= tolerance
-    };
-    let samples = 2 * (a.degree() + b.degree()) + 1;
-    let along = |pair: &[(f64, usize)]| {
-        let (start, end) = (pair[0].0, pair[1].0);
-        (0..=samples).all(|k| same(start + (end - start) * k as f64 / samples as f64))
-    };
-    same(a0) && same(a1) && a.knots().distinct().windows(2).all(along)
 }
 
 /// Whether samples of `b` all lie on `a`. Between samples two curves of moderate degree that agree on so many points of
