@@ -131,6 +131,7 @@ fn partition(
     let settings = partition::Options {
         tightness: remedy.tightness,
         stop: &|| cancel.is_cancelled(),
+        ..partition::Options::default()
     };
     if options.threads == 0 {
         return Ok(partition::partition(regions, &labels, &settings)?);

@@ -148,7 +148,8 @@ fn pairs(regions: &Regions, clip: &Bounds, tolerances: Tolerances) -> Vec<[usize
         let around = a.bounds().grown(tolerances.curve);
         for (j, b) in sheets.iter().enumerate().skip(i + 1) {
             let near = around.meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
-            if near && a.region != b.region {
+            let apart = a.region == b.region || regions.touch(i, j);
+            if near && !apart && regions.meet(a.region, b.region) {
                 pairs.push([i, j]);
             }
         }
@@ -170,7 +171,13 @@ pub(super) fn edge_roots(
             return (roots, undecided);
         }
         for (sheet, other) in regions.sheets.iter().enumerate() {
-            if other.region == own.region || !other.bounds().meets(&own.bounds) {
+            let ends = own.sheets();
+            let known = other.region == own.region
+                || ends.contains(&sheet)
+                || ends.iter().any(|end| regions.touch(*end, sheet));
+            let apart = !other.bounds().meets(&own.bounds);
+            let mut own_regions = ends.iter().map(|end| regions.sheets[*end].region);
+            if known || apart || !own_regions.any(|own| regions.meet(own, other.region)) {
                 continue;
             }
             let found = Piercing::new(&own.segments, other, tolerances, clip).run();
@@ -266,7 +273,7 @@ fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Star
     let mut starts = Vec::new();
     for (root, found) in roots.iter().enumerate() {
         let edge = &regions.edges[found.edge];
-        for side in &edge.sides {
+        for side in edge.borders() {
             for own in 0..2 {
                 if side.sheet != sheets[own] || found.sheet != sheets[1 - own] {
                     continue;
@@ -355,7 +362,10 @@ fn triples(
     let mut triples = Vec::new();
     let mut undecided = 0;
     for (sheet, other) in regions.sheets.iter().enumerate() {
-        if own.contains(&other.region) || !other.bounds().meets(&bounds) {
+        let known = own.contains(&other.region)
+            || crossing.sheets.iter().any(|end| regions.touch(*end, sheet));
+        let apart = !other.bounds().meets(&bounds);
+        if known || apart || !own.iter().any(|own| regions.meet(*own, other.region)) {
             continue;
         }
         let found = Piercing::new(&segments, other, tolerances, clip).run();

@@ -43,7 +43,7 @@ use glam::DVec3;
 
 pub use check::Faults;
 pub use quadrature::Integral;
-pub use region::Region;
+pub use region::{Membership, Region};
 pub use topology::{
     CurveShape, Edge, Face, FaceSample, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
 };
@@ -58,6 +58,9 @@ pub struct Options<'a> {
     pub tightness: f64,
     /// Asked now and then whether to stop.
     pub stop: &'a (dyn Fn() -> bool + Sync),
+    /// Of which two regions both may matter near some place: whether there is one where the label depends on both.
+    /// Regions that never meet so are not compared.
+    pub meet: &'a (dyn Fn(usize, usize) -> bool + Sync),
 }
 
 impl Default for Options<'_> {
@@ -65,6 +68,7 @@ impl Default for Options<'_> {
         Self {
             tightness: 1.0,
             stop: &|| false,
+            meet: &|_, _| true,
         }
     }
 }
@@ -145,7 +149,7 @@ pub fn partition(
     options: &Options<'_>,
 ) -> Result<Partition, PartitionError> {
     let mut clock = Clock::start();
-    let regions = region::Regions::new(regions)?;
+    let regions = region::Regions::new(regions, options.meet)?;
     let scale = regions.domain.diagonal();
     let tolerances = pair::Tolerances::new(scale, options.tightness);
     let clip = regions.domain.grown(MARGIN * scale);

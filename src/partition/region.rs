@@ -34,12 +34,28 @@ pub enum Region {
     },
     /// Everything above an elevation (m).
     Above(f64),
+    /// What lies on one side of open surfaces that reach through the domain.
+    Side {
+        /// The surfaces; none if everything lies on that side. Borders that join no other must lie where nothing may
+        /// be labelled differently on both sides; or exactly on a level, on which the surface then **lands**: that
+        /// contact is known, and may be tangential.
+        surfaces: Vec<Surface>,
+        /// Tells the side.
+        inside: Arc<dyn Membership>,
+    },
+}
+
+/// Tells whether a region holds a point.
+pub trait Membership: Send + Sync + std::fmt::Debug {
+    /// Whether it does.
+    fn holds(&self, point: DVec3) -> bool;
 }
 
 /// A region's membership.
 #[derive(Debug)]
 pub(super) enum Inside {
     Shell(Arc<Enclosure>),
+    Side(Arc<dyn Membership>),
     Block(DVec3, DVec3),
     Above(f64),
 }
@@ -48,21 +64,61 @@ impl Inside {
     pub(super) fn holds(&self, p: DVec3) -> bool {
         match self {
             Self::Shell(shell) => shell.contains(p),
+            Self::Side(side) => side.holds(p),
             Self::Block(low, high) => p.cmpge(*low).all() && p.cmple(*high).all(),
             Self::Above(level) => p.z > *level,
         }
     }
 }
 
-/// Where sheets of a region join, along a whole side of each.
+/// Where sheets of a region join, along a whole side of each; or where a side lands on a level sheet of another.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
     /// The curve, with the parameter of its first sheet's side.
     pub(super) curve: Curve,
     pub(super) segments: Vec<Segment>,
     pub(super) sides: [Side; 2],
+    /// The sheet that the first side's sheet lands on; there is no second side then.
+    pub(super) landing: Option<Landing>,
     pub(super) region: usize,
     pub(super) bounds: Bounds,
+}
+
+/// A level sheet under an edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Landing {
+    pub(super) sheet: usize,
+    chart: Chart,
+}
+
+impl Edge {
+    /// The sheets that meet along it.
+    pub(super) fn sheets(&self) -> [usize; 2] {
+        let second = self.landing.map_or(self.sides[1].sheet, |on| on.sheet);
+        [self.sides[0].sheet, second]
+    }
+
+    /// The sides of sheets along it.
+    pub(super) fn borders(&self) -> &[Side] {
+        &self.sides[..if self.landing.is_some() { 1 } else { 2 }]
+    }
+
+    /// Its Bézier piece at t.
+    pub(super) fn segment(&self, t: f64) -> &Segment {
+        let inner = &self.segments[..self.segments.len() - 1];
+        &self.segments[inner.partition_point(|segment| segment.t[1] <= t)]
+    }
+
+    /// Parameters on one of its sheets, and their derivative, at t.
+    pub(super) fn on_sheet(&self, side: usize, sheets: &[Sheet], t: f64) -> (DVec2, DVec2) {
+        match self.landing {
+            Some(on) if side == 1 => {
+                let (point, tangent) = self.segment(t).evaluate(t);
+                (on.chart.at(point), on.chart.along(tangent))
+            }
+            _ => self.sides[side].at(sheets, t),
+        }
+    }
 }
 
 /// An edge as the side of a sheet.
@@ -110,6 +166,8 @@ pub(super) struct Regions {
     pub(super) inside: Vec<Inside>,
     pub(super) bounds: Vec<Bounds>,
     pub(super) domain: Bounds,
+    /// By region and region: whether there may be a place where both matter.
+    meet: Vec<bool>,
 }
 
 /// How far apart sides may be that are the same, as a fraction of the region's size.
@@ -124,7 +182,12 @@ struct Made {
 
 impl Regions {
     /// Region 0 is the domain.
-    pub(super) fn new(regions: Vec<Region>) -> Result<Self, PartitionError> {
+    ///
+    /// `meet` tells of which regions both may matter near some place.
+    pub(super) fn new(
+        regions: Vec<Region>,
+        meet: &dyn Fn(usize, usize) -> bool,
+    ) -> Result<Self, PartitionError> {
         let Some(Region::Block { low, high }) = regions.first() else {
             return Err(PartitionError::NoDomain);
         };
@@ -132,6 +195,7 @@ impl Regions {
             low: *low,
             high: *high,
         };
+        let count = regions.len();
         let made = regions
             .into_par_iter()
             .enumerate()
@@ -144,6 +208,9 @@ impl Regions {
             inside: Vec::new(),
             bounds: Vec::new(),
             domain,
+            meet: (0..count * count)
+                .map(|at| at / count == at % count || meet(at / count, at % count))
+                .collect(),
         };
         let mut own = Vec::new();
         for (index, region) in made.into_iter().enumerate() {
@@ -162,6 +229,7 @@ impl Regions {
             all.bounds.push(bounds);
             own.push((first..all.sheets.len(), region.may_be_open));
         }
+        let mut open_borders = Vec::new();
         for (index, (own, may_be_open)) in own.into_iter().enumerate() {
             let open = all.join(index, own);
             match open.first() {
@@ -174,12 +242,62 @@ impl Regions {
                 }
                 _ => {}
             }
-            for (sheet, border, _) in open {
-                all.sheets[sheet].open.push(border);
+            for (sheet, border, _) in &open {
+                all.sheets[*sheet].open.push(*border);
             }
+            open_borders.extend(open);
         }
         all.orient()?;
+        for (sheet, border, curve) in open_borders {
+            all.land(sheet, border, curve);
+        }
         Ok(all)
+    }
+
+    /// Whether both regions may matter near some place.
+    pub(super) fn meet(&self, a: usize, b: usize) -> bool {
+        self.meet[a * self.inside.len() + b]
+    }
+
+    /// Whether one of two sheets lands on the other.
+    pub(super) fn touch(&self, a: usize, b: usize) -> bool {
+        self.sheets[a].lands_on.contains(&b) || self.sheets[b].lands_on.contains(&a)
+    }
+
+    /// Makes an open border that lies on a level sheet of another region an edge.
+    fn land(&mut self, sheet: usize, border: Border, curve: Curve) {
+        let region = self.sheets[sheet].region;
+        let tolerance = CLOSURE * self.domain.diagonal();
+        let bounds = Bounds::of(curve.points().iter().copied());
+        if !bounds.grown(tolerance).meets(&self.domain) {
+            return;
+        }
+        let under = self.sheets.iter().enumerate().find_map(|(at, other)| {
+            if other.region == region || !self.meet(region, other.region) {
+                return None;
+            }
+            let [point, normal, _] = other.plane?;
+            let lies = |p: &DVec3| (*p - point).dot(normal).abs() <= tolerance;
+            let chart = Chart::of(&other.surface).filter(|_| curve.points().iter().all(lies))?;
+            Some(Landing { sheet: at, chart })
+        });
+        let Some(landing) = under else { return };
+        let side = Side {
+            sheet,
+            border,
+            shift: 0.0,
+            scale: 1.0,
+        };
+        self.sheets[sheet].open.retain(|open| *open != border);
+        self.sheets[sheet].lands_on.push(landing.sheet);
+        self.edges.push(Edge {
+            segments: segments(&curve),
+            bounds,
+            curve,
+            sides: [side; 2],
+            landing: Some(landing),
+            region,
+        });
     }
 
     /// Pairs the sides of a region's sheets; what is left over is open.
@@ -234,6 +352,7 @@ impl Regions {
                             bounds,
                             curve: first_curve,
                             sides,
+                            landing: None,
                             region,
                         });
                     }
@@ -315,6 +434,11 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
             inside: Inside::Shell(shell),
             may_be_open: true,
         }),
+        Region::Side { surfaces, inside } => Ok(Made {
+            sheets: surfaces,
+            inside: Inside::Side(inside),
+            may_be_open: true,
+        }),
         Region::Block { low, high } => {
             let corner = |i: usize| {
                 let pick = |axis: usize| {
@@ -365,6 +489,46 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
                 may_be_open: true,
             })
         }
+    }
+}
+
+/// The parameters of a parallelogram, from places in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Chart {
+    origin: DVec3,
+    /// Parameters at the origin.
+    first: DVec2,
+    /// What grows by 1 with u, and with v.
+    rows: [DVec3; 2],
+}
+
+impl Chart {
+    /// The chart of a surface with four control points that are a parallelogram's corners.
+    fn of(surface: &Surface) -> Option<Self> {
+        let [a, b, c, d] = surface.net() else {
+            return None;
+        };
+        let closes = ((*b - *a) - (*d - *c)).length() <= 1e-12 * b.distance(*c);
+        if !closes || surface.is_rational() {
+            return None;
+        }
+        let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+        let (su, sv) = ((*c - *a) / (u1 - u0), (*b - *a) / (v1 - v0));
+        let normal = su.cross(sv);
+        let size = normal.length_squared();
+        Some(Self {
+            origin: *a,
+            first: DVec2::new(u0, v0),
+            rows: [sv.cross(normal) / size, normal.cross(su) / size],
+        })
+    }
+
+    fn at(&self, point: DVec3) -> DVec2 {
+        self.first + self.along(point - self.origin)
+    }
+
+    fn along(&self, vector: DVec3) -> DVec2 {
+        DVec2::new(self.rows[0].dot(vector), self.rows[1].dot(vector))
     }
 }
 

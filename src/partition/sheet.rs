@@ -18,6 +18,8 @@ pub(super) struct Sheet {
     pub(super) plane: Option<[DVec3; 3]>,
     /// Borders that join no other sheet: where curves end there, nobody asks.
     pub(super) open: Vec<Border>,
+    /// Level sheets of other regions that it ends on.
+    pub(super) lands_on: Vec<usize>,
     /// Distinct knots.
     pub(super) knots: [Vec<f64>; 2],
     /// u-major.
@@ -99,6 +101,7 @@ impl Sheet {
             region,
             outward: 1.0,
             open: Vec::new(),
+            lands_on: Vec::new(),
             plane: None,
             knots,
             patches,

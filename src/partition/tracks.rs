@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use super::check::Faults;
-use super::crossings::Crossings;
+use super::crossings::{Crossings, MATCH};
 use super::hermite::{self, End};
 use super::pair::Tolerances;
 use super::region::Regions;
@@ -54,23 +54,21 @@ impl Geometry<'_> {
     /// The point at t.
     pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
         match source {
-            Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).0,
+            Source::Edge(edge) => self.edge(edge, t).0,
             Source::Crossing(at) => hermite::space(&self.crossings.curves[at].branch.value(t)),
             Source::Pole(at) => self.regions.poles[at].point,
         }
     }
 
-    fn edge_segment(&self, edge: usize, t: f64) -> &super::pierce::Segment {
-        let segments = &self.regions.edges[edge].segments;
-        let inner = &segments[..segments.len() - 1];
-        &segments[inner.partition_point(|segment| segment.t[1] <= t)]
+    fn edge(&self, edge: usize, t: f64) -> (DVec3, DVec3) {
+        self.regions.edges[edge].segment(t).evaluate(t)
     }
 
     /// Parameters on one of the track's sheets, and their derivative.
     pub(super) fn on_sheet(&self, source: Source, side: usize, t: f64) -> (DVec2, DVec2) {
         let sheets = &self.regions.sheets;
         match source {
-            Source::Edge(edge) => self.regions.edges[edge].sides[side].at(sheets, t),
+            Source::Edge(edge) => self.regions.edges[edge].on_sheet(side, sheets, t),
             Source::Crossing(at) => {
                 let [value, slope] = self.crossings.curves[at].branch.both(t);
                 (
@@ -94,7 +92,7 @@ impl Geometry<'_> {
     /// Point and derivative at t.
     pub(super) fn point_and_tangent(&self, source: Source, t: f64) -> (DVec3, DVec3) {
         match source {
-            Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t),
+            Source::Edge(edge) => self.edge(edge, t),
             Source::Crossing(at) => {
                 let [value, slope] = self.crossings.curves[at].branch.both(t);
                 (hermite::space(&value), hermite::space(&slope))
@@ -160,6 +158,7 @@ impl Tracks {
         all.add_poles(regions, tolerances);
         let first = all.tracks.len();
         all.add_crossings(crossings, &roots);
+        all.add_landings(regions, crossings, &roots, first, faults);
         all.add_triples(regions, crossings, first, tolerances, faults);
         for track in &mut all.tracks {
             track.cuts.sort_by(|a, b| a.t.total_cmp(&b.t));
@@ -189,7 +188,7 @@ impl Tracks {
             }
             self.tracks.push(Track {
                 source: Source::Edge(index),
-                sheets: [edge.sides[0].sheet, edge.sides[1].sheet],
+                sheets: edge.sheets(),
                 cuts,
             });
         }
@@ -289,6 +288,51 @@ impl Tracks {
         }
     }
 
+    /// Where a landing passes through a third sheet, so does the curve of that sheet and the one landed on.
+    fn add_landings(
+        &mut self,
+        regions: &Regions,
+        crossings: &Crossings,
+        roots: &[usize],
+        first: usize,
+        faults: &mut Faults,
+    ) {
+        let near = MATCH * regions.domain.diagonal();
+        for (root, vertex) in crossings.roots.iter().zip(roots) {
+            let Some(on) = regions.edges[root.edge].landing else {
+                continue;
+            };
+            let point = root.root.point;
+            let own = Some(regions.edges[root.edge].region);
+            let pair = [on.sheet.min(root.sheet), on.sheet.max(root.sheet)];
+            let [a, b] = pair.map(|sheet| regions.sheets[sheet].region);
+            let mut passed = 0;
+            for (index, edge) in regions.edges.iter().enumerate() {
+                let [c, d] = edge.sheets();
+                if [c.min(d), c.max(d)] != pair {
+                    continue;
+                }
+                let closest = edge.curve.closest(point, near);
+                if closest.distance <= near {
+                    self.cut(index, closest.parameter, *vertex, own);
+                    passed += 1;
+                }
+            }
+            for (index, crossing) in crossings.curves.iter().enumerate() {
+                if crossing.sheets != pair {
+                    continue;
+                }
+                let (t, distance) = crossing.branch.project(point);
+                if distance <= near {
+                    self.cut(first + index, t, *vertex, own);
+                    passed += 1;
+                }
+            }
+            let wanted = regions.meet(a, b) && regions.domain.holds(point);
+            faults.triples += usize::from(wanted && passed != 1);
+        }
+    }
+
     /// Common points of three sheets: each must lie on all three of their curves.
     fn add_triples(
         &mut self,
@@ -327,18 +371,19 @@ impl Tracks {
                         first + triple.crossing,
                         triple.t,
                         vertex,
-                        regions.sheets[triple.sheet].region,
+                        Some(regions.sheets[triple.sheet].region),
                     );
                     pairs.push(crossings.curves[triple.crossing].sheets);
                 }
                 let all = [[key[0], key[1]], [key[0], key[2]], [key[1], key[2]]];
                 for (k, pair) in all.iter().enumerate() {
                     let count = pairs.iter().filter(|one| *one == pair).count();
-                    if count == 1 {
+                    let [a, b] = pair.map(|sheet| regions.sheets[sheet].region);
+                    if count == 1 || !regions.meet(a, b) {
                         continue;
                     }
                     // A curve that was seen to miss the point is asked for the nearest place on it.
-                    let third = regions.sheets[key[2 - k]].region;
+                    let third = Some(regions.sheets[key[2 - k]].region);
                     let repaired = count == 0
                         && of_pair.get(pair).into_iter().flatten().any(|&index| {
                             let (t, distance) = crossings.curves[index].branch.project(point);
@@ -354,8 +399,7 @@ impl Tracks {
         }
     }
 
-    fn cut(&mut self, track: usize, t: f64, vertex: usize, region: usize) {
-        let region = Some(region);
+    fn cut(&mut self, track: usize, t: f64, vertex: usize, region: Option<usize>) {
         self.tracks[track].cuts.push(Cut { t, vertex, region });
     }
 }

@@ -138,6 +138,7 @@ enum Inside {
     Shell(Box<Enclosure>),
     Block(DVec3, DVec3),
     Above(f64),
+    Side(std::sync::Arc<dyn clinothem::partition::Membership>),
 }
 
 impl Inside {
@@ -149,6 +150,7 @@ impl Inside {
                 Self::Shell(Box::new(Enclosure::new(surfaces.clone()).unwrap()))
             }
             Region::Above(level) => Self::Above(*level),
+            Region::Side { inside, .. } => Self::Side(inside.clone()),
         }
     }
 
@@ -157,6 +159,7 @@ impl Inside {
             Self::Shell(shell) => shell.contains(p),
             Self::Block(low, high) => p.cmpgt(*low).all() && p.cmplt(*high).all(),
             Self::Above(level) => p.z > *level,
+            Self::Side(side) => side.holds(p),
         }
     }
 }
