@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::Label;
 use super::check::Faults;
+use super::landing;
 use super::tracks::{Geometry, Source, Tracks};
 
 /// A piece of a sheet beside an arc, and the labels on its region's inner and outer side.
@@ -85,7 +86,7 @@ fn along(
         let flaps = if own[0] == own[1] {
             rim(geometry, track.source, own[0], &sides, labels)
         } else if is_landing(geometry, track.source) {
-            land(geometry, track, probe, &sides, labels)
+            landing::flaps(geometry, track, probe, &sides, labels)
         } else {
             cross(geometry, track, probe, &sides, labels)
         };
@@ -160,81 +161,8 @@ fn rim(
     }
 }
 
-/// Around the border of a sheet that lands on a level one: three sectors, in an order that is known even where the
-/// sheets touch.
-fn land(
-    geometry: Geometry<'_>,
-    track: &super::tracks::Track,
-    t: f64,
-    sides: &[bool],
-    labels: Labels<'_>,
-) -> Vec<Flap> {
-    let regions = geometry.regions;
-    let [sheet, level] = track.sheets.map(|sheet| &regions.sheets[sheet]);
-    let places = [0, 1].map(|side| geometry.on_sheet(track.source, side, t).0);
-    let Some([_, up, _]) = level.plane else {
-        return Vec::new();
-    };
-    if !level.holds(places[1].x, places[1].y) {
-        return Vec::new();
-    }
-    let tangent = geometry.point_and_tangent(track.source, t).1;
-    let (foot, su, sv) = sheet.first_jet(places[0].x, places[0].y);
-    let out = su.cross(sv) * sheet.outward;
-    let middle = |axis: usize| sheet.low(axis) + 0.5 * sheet.length(axis);
-    let above = (sheet.point(middle(0), middle(1)) - foot).dot(up) > 0.0;
-    // The normal of the level on the sheet's side, and whether the level's region is there.
-    let near = if above { up } else { -up };
-    let near_is_inner = (near.dot(up) < 0.0) == (level.outward > 0.0);
-    let wedge_is_inner = out.dot(near) > 0.0;
-    let label = |inside_level: bool, inside_sheet: bool| {
-        let mut with = sides.to_vec();
-        with[level.region] = inside_level;
-        with[sheet.region] = inside_sheet;
-        labels(&with)
-    };
-    let far = label(!near_is_inner, !wedge_is_inner);
-    let wedge = label(near_is_inner, wedge_is_inner);
-    let beyond = label(near_is_inner, !wedge_is_inner);
-    let pair = |inner_first: bool, first: Label, second: Label| {
-        if inner_first {
-            [first, second]
-        } else {
-            [second, first]
-        }
-    };
-    let index = |inner: bool| usize::from(!inner);
-    let Source::Edge(edge) = track.source else {
-        return Vec::new();
-    };
-    let left_on_sheet = regions.edges[edge].sides[0].sheet_is_left();
-    let into = su.cross(sv).cross(tangent) * if left_on_sheet { 1.0 } else { -1.0 };
-    let under_is_left = up.cross(tangent).dot(into) > 0.0;
-    let flaps = [
-        Flap {
-            side: 1,
-            left: under_is_left,
-            labels: pair(near_is_inner, wedge, far),
-            facing: [index(!near_is_inner), index(near_is_inner)],
-        },
-        Flap {
-            side: 0,
-            left: left_on_sheet,
-            labels: pair(wedge_is_inner, wedge, beyond),
-            facing: [index(wedge_is_inner), index(!wedge_is_inner)],
-        },
-        Flap {
-            side: 1,
-            left: !under_is_left,
-            labels: pair(near_is_inner, beyond, far),
-            facing: [index(near_is_inner), index(!near_is_inner)],
-        },
-    ];
-    existing(flaps.into_iter())
-}
-
 /// Those of an arc's flaps that lie between two labels; none if one sheet only goes on.
-fn existing(all: impl Iterator<Item = Flap>) -> Vec<Flap> {
+pub(super) fn existing(all: impl Iterator<Item = Flap>) -> Vec<Flap> {
     let flaps: Vec<Flap> = all
         .filter(|flap| flap.labels[0] != flap.labels[1])
         .collect();

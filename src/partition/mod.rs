@@ -9,7 +9,7 @@
 //! 2. `pierce`, `seeds`, `march`, `crossings`: where edges pass through sheets, where sheets cross, where three
 //!    meet. Curves are pieces of degree 5 with one parameter in space and on both sheets, and a measured
 //!    deviation.
-//! 3. `tracks`, `arcs`: curves cut at vertices, each made once; sectors around each piece, labelled.
+//! 3. `tracks`, `arcs`, `landing`: curves cut at vertices, each made once; sectors around each piece, labelled.
 //! 4. `faces`, `solids`: half-edges linked by angle into loops, loops into faces, faces into solids.
 //! 5. `quadrature`, `check`: volumes and areas, and counts of whatever contradicts itself.
 //!
@@ -22,6 +22,7 @@ mod check;
 mod crossings;
 mod faces;
 mod hermite;
+mod landing;
 mod march;
 mod pair;
 mod patch;
