@@ -4,10 +4,15 @@
 //! either: what removes what is decided in [`crate::model`].
 
 pub mod body;
+pub mod boundary;
 pub mod channel;
+pub mod clinoform;
 pub mod ellipsoid;
 pub mod extrusion;
+pub mod frame;
+pub mod horizon;
 pub mod meander;
 pub mod profile;
 pub mod section;
+pub mod side;
 pub mod trajectory;

@@ -28,6 +28,12 @@ impl Banded {
         self.rows[at] = value;
     }
 
+    /// Adds to an entry, which must be within reach of the diagonal.
+    pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
+        let at = self.at(row, column);
+        self.rows[at] += value;
+    }
+
     /// Factors in place; the row whose pivot vanishes if the matrix is singular.
     pub(super) fn factor(&mut self) -> Result<(), usize> {
         for pivot in 0..self.size {

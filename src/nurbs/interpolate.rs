@@ -183,6 +183,56 @@ pub fn with_parameters(
             return Err(InterpolateError::Point { index, value });
         }
     }
+    let matrix = collocation(&knots, params)?;
+    let mut solved = rows.to_vec();
+    for row in &mut solved {
+        solve(&matrix, row);
+    }
+    Ok((knots, solved))
+}
+
+/// Coefficients of the spline functions, on given knots, through rows of values at the knots' Greville abscissae. A
+/// function that is a spline on these knots is reproduced.
+pub fn at_greville(knots: &KnotVector, rows: &mut [Vec<f64>]) -> Result<(), InterpolateError> {
+    let abscissae: Vec<f64> = (0..knots.count()).map(|i| knots.greville(i)).collect();
+    let needed = abscissae.len();
+    let matrix = collocation(knots, &abscissae)?;
+    for (index, row) in rows.iter_mut().enumerate() {
+        if row.len() != needed {
+            return Err(InterpolateError::Row {
+                row: index,
+                found: row.len(),
+                needed,
+            });
+        }
+        solve(&matrix, row);
+    }
+    Ok(())
+}
+
+/// Coefficients, u-major, of the spline function of two parameters that agrees with `f` at all pairs of Greville
+/// abscissae.
+pub fn net(
+    u: &KnotVector,
+    v: &KnotVector,
+    f: impl Fn(f64, f64) -> f64,
+) -> Result<Vec<f64>, InterpolateError> {
+    let (nu, nv) = (u.count(), v.count());
+    // One row for each v, solved along u; then the other way round.
+    let mut columns: Vec<Vec<f64>> = (0..nv)
+        .map(|j| (0..nu).map(|i| f(u.greville(i), v.greville(j))).collect())
+        .collect();
+    at_greville(u, &mut columns)?;
+    let mut rows: Vec<Vec<f64>> = (0..nu)
+        .map(|i| columns.iter().map(|column| column[i]).collect())
+        .collect();
+    at_greville(v, &mut rows)?;
+    Ok(rows.concat())
+}
+
+/// The factored system of "the spline has these values at these parameters".
+fn collocation(knots: &KnotVector, params: &[f64]) -> Result<Banded, InterpolateError> {
+    let degree = knots.degree();
     let mut matrix = Banded::zeros(params.len(), degree);
     for (row, &u) in params.iter().enumerate() {
         let basis = knots.basis(u);
@@ -200,16 +250,20 @@ pub fn with_parameters(
             index,
             value: params[index],
         })?;
-    let mut solved = rows.to_vec();
-    for row in &mut solved {
-        let (first, last) = (row.first().copied(), row.last().copied());
-        matrix.solve(row);
-        // A clamped curve starts and ends at its outer control points: keep them to the last bit.
-        if let (Some(start), Some(end)) = (first, last) {
-            row[0] = start;
-            let count = row.len();
-            row[count - 1] = end;
-        }
+    Ok(matrix)
+}
+
+/// Turns values into coefficients.
+fn solve<T>(matrix: &Banded, row: &mut [T])
+where
+    T: Copy + std::ops::Mul<f64, Output = T> + std::ops::SubAssign,
+{
+    let (first, last) = (row.first().copied(), row.last().copied());
+    matrix.solve(row);
+    // A clamped curve starts and ends at its outer control points: keep them to the last bit.
+    if let (Some(start), Some(end)) = (first, last) {
+        row[0] = start;
+        let count = row.len();
+        row[count - 1] = end;
     }
-    Ok((knots, solved))
 }

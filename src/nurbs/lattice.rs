@@ -1,0 +1,354 @@
+//! Smooth functions over the plan, from heights on a lattice of even spacing or from scattered heights.
+//!
+//! Uniform bicubic splines with natural ends (the curvature across a border is zero), continued beyond the lattice by
+//! straight lines: twice continuously differentiable everywhere. With coefficients `c_0 … c_{n−1}` along an axis, one for
+//! each node, natural ends mean that `c_{−1}, c_0, c_1` lie on a line, and so do the last three: no other unknowns.
+//! Functions that are linear in x, in y and in xy are reproduced.
+
+use super::banded::Banded;
+use super::interpolate::{self, InterpolateError};
+use super::{KnotError, KnotVector};
+use glam::{DVec2, DVec3};
+use thiserror::Error;
+
+/// Weight of a fitted lattice's own size: nothing but what keeps the equations solvable where no data are.
+const RIDGE: f64 = 1e-9;
+
+/// Why heights make no lattice.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum LatticeError {
+    /// The lattice has fewer than 2 × 2 nodes, or heights for another number of nodes.
+    #[error(
+        "there are {found} heights for {nx} × {ny} nodes; give one for each of at least 2 × 2 nodes"
+    )]
+    Count {
+        /// Number of heights.
+        found: usize,
+        /// Number of nodes along x.
+        nx: usize,
+        /// Number of nodes along y.
+        ny: usize,
+    },
+    /// The lattice has no width, or a corner is no number.
+    #[error(
+        "the lattice reaches from {low} to {high}; its second corner must lie beyond the first"
+    )]
+    Extent {
+        /// The first node.
+        low: DVec2,
+        /// The last node.
+        high: DVec2,
+    },
+    /// A height is infinite or not a number.
+    #[error("height ({i}, {j}) is {value}; heights must be finite")]
+    Height {
+        /// Position along x.
+        i: usize,
+        /// Position along y.
+        j: usize,
+        /// The height.
+        value: f64,
+    },
+    /// A scattered point is infinite or not a number.
+    #[error("point {index} is {value}; coordinates must be finite")]
+    Point {
+        /// Position in the list.
+        index: usize,
+        /// The point.
+        value: DVec3,
+    },
+    /// Rounding leaves no solution.
+    #[error(
+        "the equations of a lattice of {nx} × {ny} nodes have no solution at node {index}; give a greater smoothness"
+    )]
+    Singular {
+        /// Number of nodes along x.
+        nx: usize,
+        /// Number of nodes along y.
+        ny: usize,
+        /// The node.
+        index: usize,
+    },
+}
+
+/// A twice continuously differentiable function over the plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lattice {
+    low: DVec2,
+    high: DVec2,
+    counts: [usize; 2],
+    /// The coefficient of node i along x and j along y is entry `i * ny + j`.
+    coefficients: Vec<f64>,
+}
+
+/// The nodes whose coefficients count at a place along one axis.
+struct Weights {
+    first: usize,
+    values: [f64; 4],
+    count: usize,
+}
+
+impl Lattice {
+    /// The lattice with the given heights at its nodes; node i along x and j along y is entry `i * ny + j`.
+    pub fn interpolated(
+        low: DVec2,
+        high: DVec2,
+        counts: [usize; 2],
+        heights: &[f64],
+    ) -> Result<Self, LatticeError> {
+        let [nx, ny] = counts;
+        check_extent(low, high)?;
+        if nx < 2 || ny < 2 || heights.len() != nx * ny {
+            let found = heights.len();
+            return Err(LatticeError::Count { found, nx, ny });
+        }
+        if let Some(at) = heights.iter().position(|z| !z.is_finite()) {
+            let (i, j, value) = (at / ny, at % ny, heights[at]);
+            return Err(LatticeError::Height { i, j, value });
+        }
+        let singular = |index| LatticeError::Singular { nx, ny, index };
+        let mut coefficients = heights.to_vec();
+        let along_y = node_system(ny).map_err(singular)?;
+        for row in coefficients.chunks_mut(ny) {
+            along_y.solve(row);
+        }
+        let along_x = node_system(nx).map_err(singular)?;
+        for j in 0..ny {
+            let mut column: Vec<f64> = (0..nx).map(|i| coefficients[i * ny + j]).collect();
+            along_x.solve(&mut column);
+            for (i, value) in column.into_iter().enumerate() {
+                coefficients[i * ny + j] = value;
+            }
+        }
+        Ok(Self {
+            low,
+            high,
+            counts,
+            coefficients,
+        })
+    }
+
+    /// The lattice that makes `Σ (f(x, y) − z)² + smoothness · bending` least, where bending is the sum of the squared
+    /// second differences of the coefficients (xx, twice xy, yy).
+    pub fn fitted(
+        low: DVec2,
+        high: DVec2,
+        counts: [usize; 2],
+        points: &[DVec3],
+        smoothness: f64,
+    ) -> Result<Self, LatticeError> {
+        let [nx, ny] = counts;
+        check_extent(low, high)?;
+        if nx < 2 || ny < 2 {
+            let found = points.len();
+            return Err(LatticeError::Count { found, nx, ny });
+        }
+        if let Some((index, &value)) = points.iter().enumerate().find(|(_, p)| !p.is_finite()) {
+            return Err(LatticeError::Point { index, value });
+        }
+        let mut lattice = Self {
+            low,
+            high,
+            counts,
+            coefficients: vec![0.0; nx * ny],
+        };
+        let mut matrix = Banded::zeros(nx * ny, (3 * ny + 3).min(nx * ny - 1));
+        let mut right = vec![0.0; nx * ny];
+        for point in points {
+            let row = lattice.row(point.truncate());
+            for &(a, n) in &row {
+                right[a] += n * point.z;
+            }
+            accumulate(&mut matrix, &row, 1.0);
+        }
+        for (row, weight) in bending(counts) {
+            accumulate(&mut matrix, &row, smoothness * weight);
+        }
+        for node in 0..nx * ny {
+            matrix.add(node, node, RIDGE);
+        }
+        matrix
+            .factor()
+            .map_err(|index| LatticeError::Singular { nx, ny, index })?;
+        matrix.solve(&mut right);
+        lattice.coefficients = right;
+        Ok(lattice)
+    }
+
+    /// The value at a place.
+    pub fn value(&self, at: DVec2) -> f64 {
+        let (x, y) = (self.weights(0, at.x), self.weights(1, at.y));
+        let ny = self.counts[1];
+        let mut sum = 0.0;
+        for (i, n) in x.values[..x.count].iter().enumerate() {
+            let first = (x.first + i) * ny + y.first;
+            let own = &self.coefficients[first..first + y.count];
+            sum += n * own.iter().zip(&y.values).map(|(c, m)| c * m).sum::<f64>();
+        }
+        sum
+    }
+
+    /// The part over a box in plan as a spline function of two parameters, which are fractions of the box's sides:
+    /// knots along x and y, coefficients x-major.
+    pub fn part(
+        &self,
+        low: DVec2,
+        high: DVec2,
+    ) -> Result<(KnotVector, KnotVector, Vec<f64>), InterpolateError> {
+        let (u, v) = (self.knots(0, low.x, high.x)?, self.knots(1, low.y, high.y)?);
+        let heights = interpolate::net(&u, &v, |u, v| {
+            self.value(low + (high - low) * DVec2::new(u, v))
+        })?;
+        Ok((u, v, heights))
+    }
+
+    /// Knots from 0 to 1 at the nodes between two coordinates; degree 1 where there are only two nodes.
+    fn knots(&self, axis: usize, from: f64, to: f64) -> Result<KnotVector, KnotError> {
+        // A node this near an end is left out: the function is smooth enough not to show it.
+        const NEAR: f64 = 1e-6;
+        let count = self.counts[axis];
+        let degree = if count == 2 { 1 } else { 3 };
+        let mut knots = vec![0.0; degree + 1];
+        let (low, step) = (self.low[axis], self.step(axis));
+        let mut previous = 0.0;
+        for node in (0..count).filter(|_| count > 2) {
+            let at = (low + step * node as f64 - from) / (to - from);
+            if at > previous + NEAR && at < 1.0 - NEAR {
+                knots.push(at);
+                previous = at;
+            }
+        }
+        knots.extend(std::iter::repeat_n(1.0, degree + 1));
+        KnotVector::new(degree, knots)
+    }
+
+    fn step(&self, axis: usize) -> f64 {
+        (self.high[axis] - self.low[axis]) / (self.counts[axis] - 1) as f64
+    }
+
+    /// The nodes' weights at a coordinate: uniform cubic basis functions, with those of the nodes beyond the ends shared
+    /// out to the last two.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the number is not negative, and the cast stops at the greatest integer"
+    )]
+    fn weights(&self, axis: usize, x: f64) -> Weights {
+        let count = self.counts[axis];
+        let last = count - 1;
+        let t = (x - self.low[axis]) / self.step(axis);
+        let first = if t > 0.0 { t.floor() as usize } else { 0 };
+        let span = first.min(count - 2);
+        let mut weights = Weights {
+            first: span.saturating_sub(1).min(count.saturating_sub(4)),
+            values: [0.0; 4],
+            count: count.min(4),
+        };
+        let beyond = t - last as f64;
+        if t <= 0.0 {
+            weights.add(0, 1.0 - t);
+            weights.add(1, t);
+        } else if beyond >= 0.0 {
+            weights.add(last - 1, -beyond);
+            weights.add(last, 1.0 + beyond);
+        } else {
+            let f = t - span as f64;
+            let g = 1.0 - f;
+            let inner = |f: f64| (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
+            let (before, after) = (g * g * g / 6.0, f * f * f / 6.0);
+            weights.add(span, inner(f));
+            weights.add(span + 1, inner(g));
+            if span == 0 {
+                weights.add(0, 2.0 * before);
+                weights.add(1, -before);
+            } else {
+                weights.add(span - 1, before);
+            }
+            if span + 1 == last {
+                weights.add(last, 2.0 * after);
+                weights.add(last - 1, -after);
+            } else {
+                weights.add(span + 2, after);
+            }
+        }
+        weights
+    }
+
+    /// Which coefficients count at a place, and how much.
+    fn row(&self, at: DVec2) -> Vec<(usize, f64)> {
+        let (x, y) = (self.weights(0, at.x), self.weights(1, at.y));
+        let ny = self.counts[1];
+        let mut row = Vec::with_capacity(16);
+        for (i, n) in x.values[..x.count].iter().enumerate() {
+            for (j, m) in y.values[..y.count].iter().enumerate() {
+                row.push(((x.first + i) * ny + y.first + j, n * m));
+            }
+        }
+        row
+    }
+}
+
+impl Weights {
+    fn add(&mut self, node: usize, value: f64) {
+        self.values[node - self.first] += value;
+    }
+}
+
+fn check_extent(low: DVec2, high: DVec2) -> Result<(), LatticeError> {
+    if low.is_finite() && high.is_finite() && high.cmpgt(low).all() {
+        Ok(())
+    } else {
+        Err(LatticeError::Extent { low, high })
+    }
+}
+
+/// The factored system of "these are the values at the nodes" along one axis.
+fn node_system(count: usize) -> Result<Banded, usize> {
+    let mut matrix = Banded::zeros(count, 1);
+    matrix.set(0, 0, 1.0);
+    matrix.set(count - 1, count - 1, 1.0);
+    for node in 1..count - 1 {
+        matrix.set(node, node - 1, 1.0 / 6.0);
+        matrix.set(node, node, 4.0 / 6.0);
+        matrix.set(node, node + 1, 1.0 / 6.0);
+    }
+    matrix.factor()?;
+    Ok(matrix)
+}
+
+fn accumulate(matrix: &mut Banded, row: &[(usize, f64)], weight: f64) {
+    for &(a, n) in row {
+        for &(b, m) in row {
+            matrix.add(a, b, weight * n * m);
+        }
+    }
+}
+
+/// Second differences of the coefficients with their weights.
+fn bending([nx, ny]: [usize; 2]) -> Vec<(Vec<(usize, f64)>, f64)> {
+    let at = |i: usize, j: usize| i * ny + j;
+    let mut rows = Vec::new();
+    for i in 0..nx {
+        for j in 0..ny {
+            if i + 2 < nx {
+                let row = vec![(at(i, j), 1.0), (at(i + 1, j), -2.0), (at(i + 2, j), 1.0)];
+                rows.push((row, 1.0));
+            }
+            if j + 2 < ny {
+                let row = vec![(at(i, j), 1.0), (at(i, j + 1), -2.0), (at(i, j + 2), 1.0)];
+                rows.push((row, 1.0));
+            }
+            if i + 1 < nx && j + 1 < ny {
+                let row = vec![
+                    (at(i, j), 1.0),
+                    (at(i + 1, j), -1.0),
+                    (at(i, j + 1), -1.0),
+                    (at(i + 1, j + 1), 1.0),
+                ];
+                rows.push((row, 2.0));
+            }
+        }
+    }
+    rows
+}
