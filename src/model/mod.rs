@@ -42,8 +42,9 @@ pub use quantity::Quantity;
 pub use schema::schema;
 pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{
-    ChannelSpec, Domain, EllipsoidSpec, Facies, Feature, FeatureKind, Model, Note, Pick, Place,
-    Property, Rgb, SectionOrigin, Selector, TrajectorySpec,
+    Belt, Bound, ChannelSpec, ClinoformsSpec, Domain, EllipsoidSpec, Facies, Feature, FeatureKind,
+    HorizonSpec, HorizonSurface, Interfingering, Model, Note, Pick, Place, Property, Rgb,
+    SectionOrigin, Selector, TrajectorySpec,
 };
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};

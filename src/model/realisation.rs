@@ -157,6 +157,7 @@ impl<'a> Listing<'a> {
             removes: Selector::Everything,
             removed_by: Selector::Everything,
             preserve: false,
+            from: None,
         };
         Self {
             model,
@@ -215,6 +216,7 @@ impl<'a> Listing<'a> {
             removes: feature.removes.clone(),
             removed_by: feature.removed_by.clone(),
             preserve: feature.preserve,
+            from: None,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The rules: which volume holds a place, given the bodies that the place lies inside.
+//! The rules: which volume holds a place, given the volumes whose side the place lies on.
 //!
 //! One function serves the point evaluator, the assembly's cells and the reports, so they cannot
 //! disagree. It knows nothing of geometry: `inside` is a question to the caller.
@@ -8,6 +8,12 @@
 //! body takes the place if the place is inside the body's shell, the holder is the body's parent or
 //! descends from it (without a parent: anything), the body's `removes` admits the holder, and the
 //! holder's `removed_by` admits the body. `preserve` takes nothing but the parent and the background.
+//!
+//! Horizons, clinoforms and facies boundaries are asked like bodies; their inside is the side that they
+//! hold. What they divide off is said by `from`: such a volume takes the place only from that holder or
+//! what descends from it. Dividing is not removing, so the `removed_by` of that one holder is not asked.
+
+mod meeting;
 
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +43,8 @@ pub struct VolumeRules {
     pub removed_by: Selector,
     /// Whether it takes only from its parent and the background.
     pub preserve: bool,
+    /// The older volume that it divides: it takes only from this one and what descends from it.
+    pub from: Option<usize>,
 }
 
 /// All volumes' rules, resolved: volume 0 is the background, then in order of evaluation.
@@ -48,9 +56,11 @@ pub struct Rules {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Resolved {
     parent: Option<usize>,
+    from: Option<usize>,
     preserve: bool,
     removes: Chosen,
     removed_by: Chosen,
+    past: meeting::Past,
 }
 
 /// A selector as sorted runs of volume indices: instances of a feature are neighbours, so few runs do.
@@ -67,6 +77,8 @@ pub enum Verdict {
     Takes,
     /// The holder is neither its parent nor descends from it.
     OutsideParent,
+    /// The holder is neither what it divides nor descends from that.
+    NotOpen,
     /// It preserves, and the holder is neither its parent nor the background.
     Preserves,
     /// Its `removes` does not admit the holder.
@@ -81,6 +93,7 @@ impl Verdict {
         match self {
             Self::Takes => "takes it",
             Self::OutsideParent => "leaves it: the holder is not in its parent",
+            Self::NotOpen => "leaves it: the unit that it lies on is not open there",
             Self::Preserves => "leaves it: it preserves what is there",
             Self::DoesNotRemove => "leaves it: its `removes` does not admit the holder",
             Self::Protected => "leaves it: the holder's `removed_by` does not admit it",
@@ -136,13 +149,17 @@ impl Rules {
     pub fn new(volumes: &[VolumeRules]) -> Self {
         let resolve = |volume: &VolumeRules| Resolved {
             parent: volume.parent,
+            from: volume.from,
             preserve: volume.preserve,
             removes: Chosen::resolve(&volume.removes, volumes),
             removed_by: Chosen::resolve(&volume.removed_by, volumes),
+            past: meeting::Past::default(),
         };
-        Self {
+        let mut rules = Self {
             volumes: volumes.iter().map(resolve).collect(),
-        }
+        };
+        rules.look_back();
+        rules
     }
 
     /// Number of volumes, the background included.
@@ -163,11 +180,13 @@ impl Rules {
             .is_some_and(|parent| !self.descends(holder, parent))
         {
             Verdict::OutsideParent
+        } else if rules.from.is_some_and(|from| !self.descends(holder, from)) {
+            Verdict::NotOpen
         } else if rules.preserve && holder != BACKGROUND && Some(holder) != rules.parent {
             Verdict::Preserves
         } else if !rules.removes.admits(holder) {
             Verdict::DoesNotRemove
-        } else if !self.volumes[holder].removed_by.admits(body) {
+        } else if rules.from != Some(holder) && !self.volumes[holder].removed_by.admits(body) {
             Verdict::Protected
         } else {
             Verdict::Takes

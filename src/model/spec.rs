@@ -38,6 +38,10 @@ pub struct Domain {
     pub y: [f64; 2],
     /// Base and top.
     pub z: [f64; 2],
+    /// A base above the block's own: below it the model has nothing.
+    pub base: Option<HorizonSurface>,
+    /// A top below the block's own: above it the model has nothing.
+    pub top: Option<HorizonSurface>,
     /// Index of the background's facies.
     pub facies: usize,
 }
@@ -122,17 +126,23 @@ pub enum FeatureKind {
     Channel(ChannelSpec),
     /// A concretion or nodule.
     Ellipsoid(EllipsoidSpec),
+    /// A surface through the domain, with a new unit above it.
+    Horizon(HorizonSpec),
+    /// Clinoforms that divide a horizon's unit.
+    Clinoforms(ClinoformsSpec),
 }
 
 impl FeatureKind {
     /// The kinds' names, as the model file writes them.
-    pub const NAMES: [&'static str; 2] = ["channel", "ellipsoid"];
+    pub const NAMES: [&'static str; 4] = ["channel", "ellipsoid", "horizon", "clinoforms"];
 
     /// The kind's name, as the model file writes it.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Channel(_) => "channel",
             Self::Ellipsoid(_) => "ellipsoid",
+            Self::Horizon(_) => "horizon",
+            Self::Clinoforms(_) => "clinoforms",
         }
     }
 }
@@ -195,6 +205,105 @@ pub struct EllipsoidSpec {
     pub azimuth_deg: Quantity,
     /// Angle of the first axis below the horizontal, degrees.
     pub plunge_deg: Quantity,
+}
+
+/// A horizon: it makes a new unit above it, up to the next horizon or the domain's top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HorizonSpec {
+    /// Where it runs.
+    pub surface: HorizonSurface,
+    /// Whether its unit takes from the open unit and its children alone; otherwise it is erosive and takes from everything.
+    pub onlapping: bool,
+}
+
+/// A surface z(x, y) over the whole domain.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HorizonSurface {
+    /// Level, at this elevation.
+    Level(Quantity),
+    /// A plane.
+    Dipping {
+        /// A point of it.
+        through: [Quantity; 3],
+        /// Its angle below the horizontal, degrees.
+        dip_deg: Quantity,
+        /// The direction of its dip, clockwise from north, degrees.
+        azimuth_deg: Quantity,
+    },
+    /// Heights at the nodes of a regular grid, interpolated exactly.
+    Grid {
+        /// The first and the last column.
+        x: [f64; 2],
+        /// The first and the last row.
+        y: [f64; 2],
+        /// At least two rows from south to north, of at least two values each, from west to east.
+        heights: Vec<Vec<f64>>,
+    },
+    /// Scattered points, approximated.
+    Points {
+        /// At least three, not on one line in plan.
+        points: Vec<[f64; 3]>,
+        /// How far from a point the surface may pass, vertically.
+        tolerance: f64,
+    },
+}
+
+/// A set of clinoforms: sheets that divide a horizon's unit into clinothems, and the facies belts of each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClinoformsSpec {
+    /// What bounds the unit above.
+    pub top: Bound,
+    /// Direction of progradation, clockwise from north, degrees.
+    pub azimuth_deg: Quantity,
+    /// Semi-extents of the shoreline's ellipse, along dip and along strike.
+    pub shoreline: [Quantity; 2],
+    /// Plan distance from a clinoform's shoreline to its toe.
+    pub length: Quantity,
+    /// Distance from a clinoform to the next.
+    pub spacing: Quantity,
+    /// Distance from where the set begins to its first clinoform.
+    pub first: Quantity,
+    /// Exponent of the dip profile.
+    pub exponent: Quantity,
+    /// How straight the profile meets its base: 0 is tangent to it, 1 is straight; chosen by the bounds if absent.
+    pub toe: Option<Quantity>,
+    /// How many clinoforms; as many as have their shoreline in the domain if absent.
+    pub sheets: Option<usize>,
+    /// Facies belts from landward to basinward; none, or at least two.
+    pub belts: Vec<Belt>,
+    /// The shape of the boundaries between belts.
+    pub interfingering: Interfingering,
+}
+
+/// What bounds a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// The domain's own base or top.
+    Domain,
+    /// The horizon that is this feature.
+    Horizon(usize),
+}
+
+/// A facies belt of a clinothem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Belt {
+    /// Its name, unique in its set.
+    pub name: String,
+    /// Index of its facies.
+    pub facies: usize,
+    /// Width along dip; absent in the last belt only.
+    pub width: Option<Quantity>,
+    /// How far its basinward boundary swings, from peak to peak; absent in the last belt only.
+    pub interfingering: Option<Quantity>,
+}
+
+/// The shape of the boundaries between facies belts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interfingering {
+    /// Smooth along strike.
+    Smooth,
+    /// Straight legs with kinks.
+    Zigzag,
 }
 
 /// Which point of a section follows the trajectory.

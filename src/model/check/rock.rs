@@ -289,6 +289,8 @@ impl Checker<'_> {
             .need(file.facies, table, "the domain", "facies", example);
         let facies = named.and_then(|(node, name)| self.known_facies(node, &name, facies));
         Some(Domain {
+            base: None,
+            top: None,
             x: x?,
             y: y?,
             z: z?,

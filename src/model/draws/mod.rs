@@ -44,7 +44,7 @@ pub(super) struct Surroundings<'a> {
 /// Whether a kind is placed by its parent's shell.
 pub(super) fn wants_parent(kind: &FeatureKind) -> bool {
     match kind {
-        FeatureKind::Channel(_) => false,
+        FeatureKind::Channel(_) | FeatureKind::Horizon(_) | FeatureKind::Clinoforms(_) => false,
         FeatureKind::Ellipsoid(spec) => spec.center.is_none(),
     }
 }
@@ -82,6 +82,13 @@ pub(super) fn body(
     let made = match kind {
         FeatureKind::Channel(spec) => channel(spec, place.domain, &mut draws).map(Body::Trough),
         FeatureKind::Ellipsoid(spec) => ellipsoid(spec, place, &mut draws).map(Body::Ellipsoid),
+        FeatureKind::Horizon(_) | FeatureKind::Clinoforms(_) => Err((
+            "not built yet",
+            format!(
+                "features of the kind \"{}\" cannot be built by this version; leave them out with --without",
+                kind.name()
+            ),
+        )),
     };
     match made {
         Ok(body) => Ok(Drawn {

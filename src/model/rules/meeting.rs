@@ -1,0 +1,111 @@
+//! Which volumes' sides can matter at one place, by the rules alone.
+//!
+//! The sides of two volumes *meet* if there is a setting of all other sides at which changing the one
+//! changes the owner (for some side of the other), and changing the other does too. Where they cannot,
+//! their surfaces need not be intersected: whatever lies between them has one owner on both sides.
+//!
+//! What is known of a volume a without trying settings is its **gates**: a takes only from its parent or
+//! what descends from it, and from its `from` or what descends from that, and what descends was itself
+//! taken from there. So a place that a takes was held by a's gate before, by the gate's gate before
+//! that, and so on. Let b be older than a.
+//!
+//! - A gate younger than b that takes whatever can hold the place then leaves no trace of b.
+//! - A gate g older than b, of a volume v younger than b that takes from g alone: b then meets a place
+//!   that g holds and must leave to v, so they meet only if b takes from g.
+//!
+//! In doubt, sides meet.
+
+use serde::{Deserialize, Serialize};
+
+use super::{BACKGROUND, Chosen, Rules, Verdict};
+
+/// What the rules say of the holders that a volume finds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Past {
+    /// The older volume that held every place which this one takes.
+    gate: Option<usize>,
+    /// Whether it takes from the gate alone, not from what descends from it.
+    directly: bool,
+    /// The volumes from this one on make no difference to it: it takes from all that can hold a place then.
+    covers_since: Option<usize>,
+}
+
+impl Rules {
+    /// Whether there can be a place beside which both volumes' sides matter. `false` is certain; `true` may be doubt.
+    pub fn may_meet(&self, one: usize, other: usize) -> bool {
+        let (b, a) = (one.min(other), one.max(other));
+        if a == b {
+            return true;
+        }
+        if b == BACKGROUND {
+            return false;
+        }
+        let mut v = a;
+        loop {
+            if v != a && self.covers(v, b) {
+                return false;
+            }
+            let past = &self.volumes[v].past;
+            match past.gate {
+                Some(gate) if gate > b => v = gate,
+                Some(gate) if gate < b && past.directly => {
+                    return self.verdict(b, gate) == Verdict::Takes;
+                }
+                _ => return true,
+            }
+        }
+    }
+
+    /// Whether v takes a place that b found, whether b took it or not.
+    fn covers(&self, v: usize, b: usize) -> bool {
+        let volume = &self.volumes[v];
+        volume.past.covers_since.is_some_and(|since| since <= b)
+            && volume.from.is_none_or(|from| self.descends(b, from))
+    }
+
+    /// Fills in what the rules say of each volume's past.
+    pub(super) fn look_back(&mut self) {
+        let mut is_parent = vec![false; self.volumes.len()];
+        for parent in self.volumes.iter().filter_map(|volume| volume.parent) {
+            is_parent[parent] = true;
+        }
+        // What protects older volumes, each once: instances of a feature have the same.
+        let mut protections: Vec<Chosen> = Vec::new();
+        for v in 0..self.volumes.len() {
+            let volume = &self.volumes[v];
+            let gate = volume.parent.max(volume.from);
+            let takes_all = volume.parent.is_none()
+                && !volume.preserve
+                && volume.removes == Chosen::Everything
+                && protections.iter().all(|admitted| admitted.admits(v));
+            let past = Past {
+                gate,
+                directly: gate.is_some_and(|gate| volume.from == gate.into() && !is_parent[gate]),
+                covers_since: takes_all.then(|| self.run_before(v)),
+            };
+            if volume.removed_by != Chosen::Everything && !protections.contains(&volume.removed_by)
+            {
+                protections.push(volume.removed_by.clone());
+            }
+            self.volumes[v].past = past;
+        }
+    }
+
+    /// See [`Past::covers_since`], for a volume that takes all that descends from its `from`, or everything.
+    fn run_before(&self, v: usize) -> usize {
+        let Some(from) = self.volumes[v].from else {
+            return 0;
+        };
+        // What descends from `from` keeps the place there; what takes everything leaves no trace of anything.
+        let harmless = |&older: &usize| {
+            self.descends(older, from)
+                || self.volumes[older].from.is_none()
+                    && self.volumes[older].past.covers_since.is_some()
+        };
+        v - (from + 1..v).rev().take_while(harmless).count()
+    }
+}
+
+#[cfg(test)]
+#[path = "meeting_tests.rs"]
+mod tests;
