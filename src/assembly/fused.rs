@@ -4,7 +4,8 @@ use super::kernel::{self, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids}
 use super::shapes::{self, Cut};
 use super::worker::{self, WorkerError};
 use super::{AssemblyError, Engine, Failed, Options};
-use crate::model::plan::{AssemblyPlan, PlannedBody};
+use crate::features::body::Body;
+use crate::model::plan::{AssemblyPlan, PlannedBody, PlannedShell};
 
 /// One rung of the ladder.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,17 +110,28 @@ fn fuse(
 fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
     let with_lids = remedy.tops == Tops::Lids;
     let block = [plan.low, plan.high];
-    let shells: Vec<_> = plan
-        .shells
-        .iter()
-        .map(|shell| match &shell.flush {
-            Some(flush) if with_lids => shapes::trough(&flush.raised, block, remedy.cut, None),
-            flush => {
-                let level = flush.as_ref().map(|flush| flush.level);
-                shapes::shell(&shell.body, block, remedy.cut, level)
-            }
+    let closed = |shell: &PlannedShell| match &shell.flush {
+        Some(flush) if with_lids => Some(shapes::trough(&flush.raised, block, remedy.cut, None)),
+        flush => {
+            let level = flush.as_ref().map(|flush| flush.level);
+            shapes::shell(&shell.body, block, remedy.cut, level)
+        }
+    };
+    // By shell of the plan: its place among the closed ones.
+    let mut places = Vec::with_capacity(plan.shells.len());
+    let mut shells = Vec::with_capacity(plan.shells.len());
+    for shell in &plan.shells {
+        let topology = closed(shell);
+        places.push(topology.is_some().then_some(shells.len()));
+        shells.extend(topology);
+    }
+    let planned = |body: &PlannedBody| {
+        Some(PlannedBody {
+            volume: body.volume,
+            shell: places[body.shell]?,
+            below: body.below.filter(|_| with_lids),
         })
-        .collect();
+    };
     // What lies above a lid is a box so large that only its floor meets anything.
     let points = shells
         .iter()
@@ -139,30 +151,44 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
         domain: [plan.low.to_array(), plan.high.to_array()],
         above_lids: plan.lids.iter().filter(|_| with_lids).map(above).collect(),
         shells,
-        bodies: plan
-            .bodies
-            .iter()
-            .map(|body| PlannedBody {
-                lid: body.lid.filter(|_| with_lids),
-                ..*body
-            })
-            .collect(),
+        bodies: plan.bodies.iter().filter_map(planned).collect(),
         rules: plan.rules.clone(),
         threads,
         fuzzy: remedy.fuzzy,
     }
 }
 
-/// The domain's box as volume 0 and every body as a solid, as the first attempt gives them to the kernel.
+/// The domain's box as volume 0 and every body, closed ones as a solid, as the first attempt gives them to the kernel,
+/// and sides as the faces of their sheets.
 pub(super) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, Shape)>, String> {
     let job = job(plan, &LADDER[0], 0);
     let solids = kernel::arguments(&job).map_err(|error| explain(&error, plan))?;
     let first_shell = 1 + job.above_lids.len();
-    let domain = (0, solids[0].clone());
-    let of_body = |body: &PlannedBody| (body.volume, solids[first_shell + body.shell].clone());
-    Ok(std::iter::once(domain)
-        .chain(plan.bodies.iter().map(of_body))
-        .collect())
+    let mut made = vec![(0, solids[0].clone())];
+    for body in &plan.bodies {
+        let shape = match &plan.shells[body.shell].body {
+            Body::Side(side) if side.sheets().is_empty() => continue,
+            side @ Body::Side(_) => faces(side)?,
+            Body::Trough(_) | Body::Ellipsoid(_) => {
+                let place = job.bodies.iter().find(|one| one.volume == body.volume);
+                let Some(place) = place else { continue };
+                solids[first_shell + place.shell].clone()
+            }
+        };
+        made.push((body.volume, shape));
+    }
+    Ok(made)
+}
+
+/// The sheets of a body as faces, together in one shape.
+fn faces(body: &Body) -> Result<Shape, String> {
+    let sheets = body.sheets().map_err(|error| error.to_string())?;
+    let faces = sheets
+        .iter()
+        .map(|(role, surface)| kernel::faces(&shapes::sheet(*role, surface)))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| error.to_string())?;
+    kernel::compound(&faces).map_err(|error| error.to_string())
 }
 
 /// A fuse's failure with the volumes' names.

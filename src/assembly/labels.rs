@@ -5,14 +5,14 @@
 //! its own faces and from its neighbours', without asking a kernel where a point lies. Whatever
 //! contradicts itself is a fault of the partition and is reported, never repaired.
 
-use crate::model::plan::PlannedBody;
+use crate::model::plan::{Cover, PlannedBody};
 use crate::model::rules::Rules;
 
 /// Which volumes' insides hold a place, told from the sides of regions: domain, lids, shells.
 #[derive(Clone, Debug)]
 pub(crate) struct Holders {
-    /// By volume: shell and lid, if it takes part.
-    bodies: Vec<Option<(usize, Option<usize>)>>,
+    /// By volume: shell and what it must stay below, if it takes part.
+    bodies: Vec<Option<(usize, Option<Cover>)>>,
     first_shell: usize,
 }
 
@@ -20,7 +20,7 @@ impl Holders {
     pub(crate) fn new(bodies: &[PlannedBody], volumes: usize, lids: usize) -> Self {
         let mut of_volume = vec![None; volumes];
         for body in bodies {
-            of_volume[body.volume] = Some((body.shell, body.lid));
+            of_volume[body.volume] = Some((body.shell, body.below));
         }
         Self {
             bodies: of_volume,
@@ -31,8 +31,13 @@ impl Holders {
     /// The volume that holds a place; `None` outside the domain.
     pub(crate) fn owner(&self, rules: &Rules, inside: &[bool]) -> Option<usize> {
         let holds = |volume: usize| {
-            self.bodies[volume].is_some_and(|(shell, lid)| {
-                inside[self.first_shell + shell] && !lid.is_some_and(|lid| inside[1 + lid])
+            self.bodies[volume].is_some_and(|(shell, below)| {
+                let cover = match below {
+                    None => None,
+                    Some(Cover::Lid(lid)) => Some(1 + lid),
+                    Some(Cover::Horizon(shell)) => Some(self.first_shell + shell),
+                };
+                inside[self.first_shell + shell] && !cover.is_some_and(|region| inside[region])
             })
         };
         inside[0].then(|| rules.owner(holds))

@@ -214,7 +214,13 @@ pub fn assemble(
             }
         }
     }
-    if options.engine != Engine::Partition {
+    if options.engine != Engine::Partition && plan.has_sides() {
+        run.failed.push(Failed {
+            engine: Engine::Occt,
+            remedy: fused::LADDER[0].name,
+            why: "it takes closed bodies only, and the model has horizons or clinoforms".to_owned(),
+        });
+    } else if options.engine != Engine::Partition {
         for remedy in &fused::LADDER {
             let made = run.timed(|run| run.fuse(remedy))?;
             if let Some(assembly) = run.judge(made)? {

@@ -14,14 +14,17 @@ use super::proof::{Check, Evidence};
 use super::shapes::{self, EXACT};
 use super::{AssemblyError, Engine, Failed, Options};
 use crate::features::body::{Body, Role, Trough, TroughError};
+use crate::features::side::Side;
+use crate::model::Interior;
 use crate::model::owner::Owners;
-use crate::model::plan::{AssemblyPlan, PlannedShell};
+use crate::model::plan::{AssemblyPlan, Cover, PlannedShell};
 use crate::nurbs::{
     self,
     enclosure::{Enclosure, EnclosureError},
 };
 use crate::partition::{
-    self, CurveShape, Partition, PartitionError, PlaneCurve, Region, SheetShape, Topology,
+    self, CurveShape, Membership, Partition, PartitionError, PlaneCurve, Region, SheetShape,
+    Topology,
 };
 
 /// How exactly curves are computed.
@@ -128,10 +131,19 @@ fn partition(
     }
     let holders = Holders::new(&plan.bodies, plan.rules.len(), plan.lids.len());
     let labels = |inside: &[bool]| holders.owner(&plan.rules, inside);
+    let volumes = volumes(plan);
+    let meet = |one: usize, other: usize| match (volumes[one].as_slice(), volumes[other].as_slice())
+    {
+        // The block and lids matter everywhere.
+        ([], _) | (_, []) => true,
+        (one, other) => one
+            .iter()
+            .any(|a| other.iter().any(|b| plan.rules.may_meet(*a, *b))),
+    };
     let settings = partition::Options {
         tightness: remedy.tightness,
         stop: &|| cancel.is_cancelled(),
-        ..partition::Options::default()
+        meet: &meet,
     };
     if options.threads == 0 {
         return Ok(partition::partition(regions, &labels, &settings)?);
@@ -140,6 +152,26 @@ fn partition(
         .num_threads(options.threads)
         .build()?;
     Ok(pool.install(|| partition::partition(regions, &labels, &settings))?)
+}
+
+/// By region: the volumes that ask for it; none for the block, and for lids.
+fn volumes(plan: &AssemblyPlan) -> Vec<Vec<usize>> {
+    let first_shell = 1 + plan.lids.len();
+    let mut volumes = vec![Vec::new(); first_shell + plan.shells.len()];
+    for body in &plan.bodies {
+        volumes[first_shell + body.shell].push(body.volume);
+        // What a horizon ends asks for it too.
+        if let Some(Cover::Horizon(shell)) = body.below {
+            volumes[first_shell + shell].push(body.volume);
+        }
+    }
+    volumes
+}
+
+impl Membership for Side {
+    fn holds(&self, point: DVec3) -> bool {
+        Self::holds(self, point)
+    }
 }
 
 /// A shell as far as it matters for the domain. A level top that coincides with others is left out: the banks are
@@ -169,15 +201,24 @@ fn region(
     let surfaces = match &shell.body {
         Body::Trough(trough) => only(near(trough)?, None),
         Body::Ellipsoid(ellipsoid) => wedges(ellipsoid.skin())?,
+        Body::Side(side) => {
+            return Ok(match side.level() {
+                Some(level) => Region::Above(level),
+                None => Region::Side {
+                    surfaces: side.sheets().to_vec(),
+                    inside: Arc::clone(side) as Arc<dyn Membership>,
+                },
+            });
+        }
     };
     // The point evaluator has the whole shell: within the domain they are the same.
     let whole = plan.bodies.iter().find(|body| body.shell == index);
-    Ok(match whole {
-        Some(body) => Region::PartOf {
+    Ok(match whole.map(|body| owners.interior(body.volume)) {
+        Some(Interior::Shell(shell)) => Region::PartOf {
             surfaces,
-            shell: Arc::clone(owners.shell(body.volume)),
+            shell: Arc::clone(shell),
         },
-        None => Region::Shell(surfaces),
+        _ => Region::Shell(surfaces),
     })
 }
 

@@ -23,11 +23,17 @@ pub(crate) struct Cut {
     pub(crate) overshoot: usize,
 }
 
-/// The closed shell of a body, [`trough`] or [`closed::shell`].
-pub(crate) fn shell(body: &Body, block: [DVec3; 2], cut: Cut, level: Option<f64>) -> Topology {
+/// The closed shell of a body, [`trough`] or [`closed::shell`]; a side has none.
+pub(crate) fn shell(
+    body: &Body,
+    block: [DVec3; 2],
+    cut: Cut,
+    level: Option<f64>,
+) -> Option<Topology> {
     match body {
-        Body::Trough(one) => trough(one, block, cut, level),
-        Body::Ellipsoid(ellipsoid) => closed::shell(ellipsoid.skin(), cut.segments),
+        Body::Trough(one) => Some(trough(one, block, cut, level)),
+        Body::Ellipsoid(ellipsoid) => Some(closed::shell(ellipsoid.skin(), cut.segments)),
+        Body::Side(_) => None,
     }
 }
 
@@ -44,7 +50,7 @@ pub(crate) fn trough(trough: &Trough, block: [DVec3; 2], cut: Cut, level: Option
 pub(crate) fn sheet(role: Role, surface: &nurbs::Surface) -> Topology {
     match role {
         Role::Skin => closed::shell(surface, 1),
-        Role::Base | Role::Top | Role::Start | Role::End => open_sheet(surface),
+        _ => open_sheet(surface),
     }
 }
 

@@ -1,8 +1,11 @@
-//! Bodies: closed shells made of named sheets.
+//! Bodies: what holds places, inside a closed shell or on one side of open sheets, made of named sheets.
+
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::ellipsoid::Ellipsoid;
+use super::side::Side;
 use crate::nurbs::{Curve, KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
 /// What a sheet of a body is.
@@ -18,12 +21,18 @@ pub enum Role {
     End,
     /// The whole surface of a body without edges.
     Skin,
+    /// The base of the unit above it.
+    Horizon,
+    /// The base of the clinothem above it.
+    Clinoform,
+    /// Where one facies belt passes into the next.
+    FaciesBoundary,
 }
 
 impl Role {
     /// Whether the sheet is a surface of the rock, not only the end of a shell.
     pub fn is_geological(self) -> bool {
-        matches!(self, Self::Base | Self::Top | Self::Skin)
+        !matches!(self, Self::Start | Self::End)
     }
 
     /// The role's name in files and reports.
@@ -34,34 +43,55 @@ impl Role {
             Self::Start => "start",
             Self::End => "end",
             Self::Skin => "skin",
+            Self::Horizon => "horizon",
+            Self::Clinoform => "clinoform",
+            Self::FaciesBoundary => "facies-boundary",
         }
     }
 }
 
-/// The closed shell of an instance.
+/// What an instance holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// What flows erode: channels.
     Trough(Trough),
     /// What grows in place: concretions, nodules.
     Ellipsoid(Ellipsoid),
+    /// What lies on the younger side of open sheets: units, clinothems, facies belts.
+    Side(Arc<Side>),
 }
 
 impl Body {
-    /// All sheets of the closed shell.
+    /// All sheets of the closed shell, or of the side.
     pub fn sheets(&self) -> Result<Vec<(Role, Surface)>, SurfaceError> {
         match self {
             Self::Trough(trough) => trough.sheets(),
             Self::Ellipsoid(ellipsoid) => Ok(vec![(Role::Skin, ellipsoid.skin().clone())]),
+            Self::Side(side) => {
+                let role = match **side {
+                    Side::Horizon(_) => Role::Horizon,
+                    Side::Clinoform(_) | Side::Everywhere => Role::Clinoform,
+                    Side::Boundary(_) => Role::FaciesBoundary,
+                };
+                Ok(side.sheets().iter().map(|s| (role, s.clone())).collect())
+            }
         }
     }
 
     /// The corners of a box that holds the body: that of a trough's control net, and for an ellipsoid
-    /// the smallest one.
+    /// the smallest one. A side reaches to infinity.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
             Self::Trough(trough) => net_bounds(trough.base.net()),
             Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
+            Self::Side(side) => {
+                let least = match **side {
+                    Side::Horizon(_) => side.bounds().0.z,
+                    _ => f64::NEG_INFINITY,
+                };
+                let low = DVec3::NEG_INFINITY.with_z(least);
+                (low, DVec3::INFINITY)
+            }
         }
     }
 
@@ -69,7 +99,7 @@ impl Body {
     pub fn level_top(&self, tolerance: f64) -> Option<f64> {
         match self {
             Self::Trough(trough) => trough.level_top(tolerance),
-            Self::Ellipsoid(_) => None,
+            Self::Ellipsoid(_) | Self::Side(_) => None,
         }
     }
 }

@@ -3,16 +3,13 @@
 //! It uses no CAD kernel, so it is the independent oracle of every assembly, and enough for whatever
 //! needs only sampled answers: sections, previews, logs, Monte Carlo volumes.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::interior::{Interior, InteriorError, around};
 use super::realisation::{Instance, Realisation};
 use super::rules::{Rules, Verdict};
 use super::spec::Domain;
-use crate::nurbs::SurfaceError;
-use crate::nurbs::enclosure::{Enclosure, EnclosureError};
 
 /// Answers `owner(p)` for one realisation.
 #[derive(Clone, Debug)]
@@ -20,28 +17,17 @@ pub struct Owners {
     low: DVec3,
     high: DVec3,
     rules: Rules,
-    shells: Vec<Arc<Enclosure>>,
+    interiors: Vec<Interior>,
 }
 
 /// A body that has no inside.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum OwnersError {
-    /// Its sheets leave gaps.
-    #[error("{volume}: its shell is not closed: {source}")]
-    Open {
-        /// The volume's name.
-        volume: String,
-        /// Which edge is open.
-        source: EnclosureError,
-    },
-    /// Its ends cannot be closed.
-    #[error("{volume}: its ends cannot be closed: {source}")]
-    Ends {
-        /// The volume's name.
-        volume: String,
-        /// Why.
-        source: SurfaceError,
-    },
+#[error("{volume}: {source}")]
+pub struct OwnersError {
+    /// The volume's name.
+    pub volume: String,
+    /// Why.
+    pub source: InteriorError,
 }
 
 /// Where a point belongs, and why.
@@ -56,32 +42,25 @@ pub struct Location {
 }
 
 impl Owners {
-    /// Prepares the shells of all bodies.
+    /// Prepares the interiors of all bodies.
     pub fn new(realisation: &Realisation, domain: &Domain) -> Result<Self, OwnersError> {
-        let shell = |instance: &Instance| {
-            let volume = || realisation.volumes[instance.volume].name.clone();
-            let sheets = instance.body.sheets().map_err(|source| OwnersError::Ends {
-                volume: volume(),
+        let interior = |instance: &Instance| {
+            Interior::of(&instance.body).map_err(|source| OwnersError {
+                volume: realisation.volumes[instance.volume].name.clone(),
                 source,
-            })?;
-            Enclosure::new(sheets.into_iter().map(|sheet| sheet.1).collect())
-                .map(Arc::new)
-                .map_err(|source| OwnersError::Open {
-                    volume: volume(),
-                    source,
-                })
+            })
         };
-        let shells = realisation
+        let interiors = realisation
             .instances
             .par_iter()
-            .map(shell)
+            .map(interior)
             .collect::<Result<_, _>>()?;
         let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
         Ok(Self {
             low: corner(0),
             high: corner(1),
             rules: realisation.rules.clone(),
-            shells,
+            interiors,
         })
     }
 
@@ -89,24 +68,24 @@ impl Owners {
     pub fn at(&self, point: DVec3) -> Option<usize> {
         self.in_domain(point).then(|| {
             self.rules
-                .owner(|body| self.shells[body - 1].contains(point))
+                .owner(|body| self.interiors[body - 1].contains(point))
         })
     }
 
-    /// Whether a point lies inside the shell of a volume's body.
+    /// Whether a volume's body holds a point, by its shell or side alone.
     pub fn inside(&self, volume: usize, point: DVec3) -> bool {
-        self.shells[volume - 1].contains(point)
+        self.interiors[volume - 1].contains(point)
     }
 
-    /// The shell of a volume's body.
-    pub fn shell(&self, volume: usize) -> &Arc<Enclosure> {
-        &self.shells[volume - 1]
+    /// What a volume's body holds.
+    pub fn interior(&self, volume: usize) -> &Interior {
+        &self.interiors[volume - 1]
     }
 
-    /// The volumes whose bodies' shells come within a distance of a point (m), whatever holds the point.
+    /// The volumes whose bodies' boundaries come within a distance of a point (m), whatever holds the point.
     pub fn near(&self, point: DVec3, distance: f64) -> impl Iterator<Item = usize> {
-        (1..=self.shells.len())
-            .filter(move |volume| self.shells[volume - 1].distance(point, distance).is_some())
+        (1..=self.interiors.len())
+            .filter(move |volume| self.interiors[volume - 1].is_near(point, distance))
     }
 
     /// Whether the domain holds a point, its faces included.
@@ -121,10 +100,10 @@ impl Owners {
         }
         let history = self
             .rules
-            .history(|body| self.shells[body - 1].contains(point));
+            .history(|body| self.interiors[body - 1].contains(point));
         let owner = self
             .rules
-            .owner(|body| self.shells[body - 1].contains(point));
+            .owner(|body| self.interiors[body - 1].contains(point));
         if self.near(point, tolerance).next().is_none() {
             return Some(Location {
                 owner,
@@ -155,16 +134,4 @@ impl Owners {
     pub fn domain(&self) -> (DVec3, DVec3) {
         (self.low, self.high)
     }
-}
-
-/// The 26 neighbours of a point on a cube of this half-size.
-fn around(point: DVec3, reach: f64) -> impl Iterator<Item = DVec3> {
-    let steps = [-1.0, 0.0, 1.0];
-    let all = steps.into_iter().flat_map(move |x| {
-        steps
-            .into_iter()
-            .flat_map(move |y| steps.into_iter().map(move |z| DVec3::new(x, y, z)))
-    });
-    all.filter(|step| *step != DVec3::ZERO)
-        .map(move |step| point + step * reach)
 }

@@ -17,7 +17,7 @@ use super::rules::Rules;
 use super::spec::Domain;
 use crate::features::body::{Body, Trough, TroughError};
 
-/// Two level tops are the same within this fraction of the domain's size: far below any geology, far
+/// Two levels are the same within this fraction of the domain's size: far below any geology, far
 /// above rounding.
 const SAME_LEVEL: f64 = 1e-9;
 
@@ -47,7 +47,7 @@ pub struct AssemblyPlan {
 pub struct PlannedShell {
     /// The shell as the model means it.
     pub body: Body,
-    /// Set if its level top coincides with the domain's top or another body's.
+    /// Set if its level top coincides with the domain's top, a level horizon or another body's top.
     pub flush: Option<Flush>,
 }
 
@@ -67,8 +67,17 @@ pub struct PlannedBody {
     pub volume: usize,
     /// Its shell.
     pub shell: usize,
-    /// The lid that it must stay below.
-    pub lid: Option<usize>,
+    /// What it must stay below.
+    pub below: Option<Cover>,
+}
+
+/// What ends bodies at a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Cover {
+    /// A lid, by its index.
+    Lid(usize),
+    /// A level horizon, by its shell.
+    Horizon(usize),
 }
 
 /// Why no plan can be made.
@@ -90,6 +99,8 @@ enum Top {
     OfDomain,
     /// Cut by the lid at this elevation.
     UnderLid(f64),
+    /// Cut by the level horizon of this body.
+    UnderHorizon(usize, f64),
 }
 
 impl AssemblyPlan {
@@ -131,14 +142,26 @@ impl AssemblyPlan {
                 known.push((&instance.body, top, shell));
                 shell
             };
-            let lid = plan.lid_index(top);
+            let below = plan.cover(top);
             plan.bodies.push(PlannedBody {
                 volume: instance.volume,
                 shell,
-                lid,
+                below,
             });
         }
+        // Horizons may come after the bodies below them.
+        for at in 0..plan.bodies.len() {
+            if let Some(Cover::Horizon(body)) = plan.bodies[at].below {
+                plan.bodies[at].below = Some(Cover::Horizon(plan.bodies[body].shell));
+            }
+        }
         Ok(plan)
+    }
+
+    /// Whether anything but closed bodies takes part.
+    pub fn has_sides(&self) -> bool {
+        let is_side = |shell: &PlannedShell| matches!(shell.body, Body::Side(_));
+        self.shells.iter().any(is_side)
     }
 
     fn note(&mut self, decision: String) {
@@ -172,6 +195,21 @@ impl AssemblyPlan {
                 ));
                 continue;
             }
+            let horizon = bodies.iter().position(|one| {
+                let Body::Side(side) = &one.body else {
+                    return false;
+                };
+                side.level()
+                    .is_some_and(|other| (other - level).abs() <= same)
+            });
+            if let Some(body) = horizon {
+                tops[i] = Top::UnderHorizon(body, level);
+                self.note(format!(
+                    "{} ends at the horizon of {}",
+                    self.names[bodies[i].volume], self.names[bodies[body].volume]
+                ));
+                continue;
+            }
             let meets = |j: &usize| {
                 *j != i
                     && levels[*j].is_some_and(|other| (other - level).abs() <= same)
@@ -199,11 +237,11 @@ impl AssemblyPlan {
         let level = match top {
             Top::Free => None,
             Top::OfDomain => Some(self.high.z),
-            Top::UnderLid(level) => Some(level),
+            Top::UnderLid(level) | Top::UnderHorizon(_, level) => Some(level),
         };
         let flush = match (level, &instance.body) {
             // Only troughs have a level top.
-            (None, _) | (Some(_), Body::Ellipsoid(_)) => None,
+            (None, _) | (Some(_), Body::Ellipsoid(_) | Body::Side(_)) => None,
             (Some(level), Body::Trough(trough)) => {
                 let raised = trough.raised().map_err(|source| PlanError {
                     volume: self.names[instance.volume].clone(),
@@ -218,15 +256,19 @@ impl AssemblyPlan {
         Ok(self.shells.len() - 1)
     }
 
-    fn lid_index(&mut self, top: Top) -> Option<usize> {
-        let Top::UnderLid(level) = top else {
-            return None;
-        };
-        let known = self.lids.iter().position(|lid| *lid == level);
-        Some(known.unwrap_or_else(|| {
-            self.lids.push(level);
-            self.lids.len() - 1
-        }))
+    /// What ends a body with such a top; of a horizon its body for now.
+    fn cover(&mut self, top: Top) -> Option<Cover> {
+        match top {
+            Top::Free | Top::OfDomain => None,
+            Top::UnderHorizon(body, _) => Some(Cover::Horizon(body)),
+            Top::UnderLid(level) => {
+                let known = self.lids.iter().position(|lid| *lid == level);
+                Some(Cover::Lid(known.unwrap_or_else(|| {
+                    self.lids.push(level);
+                    self.lids.len() - 1
+                })))
+            }
+        }
     }
 }
 

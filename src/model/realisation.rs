@@ -9,12 +9,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::draws::{self, Drawn, Rejected, Surroundings};
-use super::rules::{Rules, VolumeRules};
+use super::draws::{self, Drawn, Rejected, Surroundings, strata};
+use super::interior::Interior;
+use super::rules::{BACKGROUND, Rules, VolumeRules};
 use super::selection::Selection;
-use super::spec::{Feature, Model, Selector};
+use super::spec::{Bound, ClinoformsSpec, Feature, FeatureKind, Model, Selector};
 use crate::features::body::Body;
-use crate::nurbs::enclosure::Enclosure;
+use crate::features::horizon::Horizon;
+use crate::features::side::Side;
 
 /// Most attempts at one instance before its distributions are called impossible.
 pub const MOST_ATTEMPTS: u32 = 1000;
@@ -26,7 +28,7 @@ pub struct Instance {
     pub volume: usize,
     /// Index of its feature in the model.
     pub feature: usize,
-    /// Its closed shell.
+    /// What it holds.
     pub body: Body,
     /// What was drawn, by parameter.
     pub drawn: Vec<(String, f64)>,
@@ -86,6 +88,16 @@ pub enum RealisationError {
     },
 }
 
+impl RealisationError {
+    /// The same, of a volume.
+    fn of(self, name: &str) -> Self {
+        let mut error = self;
+        let (Self::Impossible { volume, .. } | Self::Exhausted { volume, .. }) = &mut error;
+        name.clone_into(volume);
+        error
+    }
+}
+
 /// A volume that is to be realised.
 struct Planned {
     volume: usize,
@@ -96,19 +108,27 @@ struct Planned {
     depth: usize,
     /// Numbers of the instance and its ancestors, outermost first: the key of its draws.
     number: String,
+    /// What it holds and what was drawn, if that was drawn before.
+    ready: Option<(Body, Vec<(String, f64)>)>,
 }
 
 impl Realisation {
     /// Draws and builds all instances of the selected features.
     pub fn new(model: &Model, selection: &Selection) -> Result<Self, RealisationError> {
-        let mut list = Listing::new(model, selection);
-        list.instances(None, "", "");
+        let mut list = Listing::new(model, selection)?;
+        list.instances(None, "", "")?;
         let Listing {
-            volumes, planned, ..
+            volumes,
+            planned,
+            rejected,
+            ..
         } = list;
         let made = realise_all(model, &planned, &volumes)?;
         let mut instances = Vec::with_capacity(made.len());
         let mut counts: BTreeMap<(usize, &'static str), u32> = BTreeMap::new();
+        for reason in rejected {
+            *counts.entry(reason).or_default() += 1;
+        }
         for (instance, rejected) in made {
             for reason in rejected {
                 *counts.entry((instance.feature, reason)).or_default() += 1;
@@ -143,10 +163,18 @@ struct Listing<'a> {
     selection: &'a Selection,
     volumes: Vec<VolumeRules>,
     planned: Vec<Planned>,
+    /// The horizons by feature, of those features that are one, whether or not they take part.
+    horizons: BTreeMap<usize, DrawnHorizon>,
+    /// The unit above the last horizon so far.
+    open: usize,
+    /// Draws that were rejected, by feature.
+    rejected: Vec<(usize, &'static str)>,
 }
 
+type DrawnHorizon = (Horizon, Vec<(String, f64)>);
+
 impl<'a> Listing<'a> {
-    fn new(model: &'a Model, selection: &'a Selection) -> Self {
+    fn new(model: &'a Model, selection: &'a Selection) -> Result<Self, RealisationError> {
         let background = VolumeRules {
             name: "background".to_owned(),
             feature: "background".to_owned(),
@@ -159,20 +187,42 @@ impl<'a> Listing<'a> {
             preserve: false,
             from: None,
         };
-        Self {
+        let mut horizons = BTreeMap::new();
+        let mut rejected = Vec::new();
+        for (index, feature) in model.features.iter().enumerate() {
+            if let FeatureKind::Horizon(spec) = &feature.kind {
+                let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
+                let (drawn, reasons) = draw_whole(model, &feature.id, "1", draw)?;
+                rejected.extend(reasons.into_iter().map(|reason| (index, reason)));
+                horizons.insert(index, drawn);
+            }
+        }
+        Ok(Self {
+            rejected,
             model,
             selection,
             volumes: vec![background],
             planned: Vec::new(),
-        }
+            horizons,
+            open: BACKGROUND,
+        })
     }
 
     /// Adds the instances of all features with this parent (feature, volume).
-    fn instances(&mut self, parent: Option<(usize, usize)>, path: &str, numbers: &str) {
+    fn instances(
+        &mut self,
+        parent: Option<(usize, usize)>,
+        path: &str,
+        numbers: &str,
+    ) -> Result<(), RealisationError> {
         for (index, feature) in self.model.features.iter().enumerate() {
             if feature.parent != parent.map(|parent| parent.0)
                 || !self.selection.keeps_feature(feature)
             {
+                continue;
+            }
+            if let FeatureKind::Clinoforms(spec) = &feature.kind {
+                self.clinoforms(index, spec, parent, path)?;
                 continue;
             }
             for number in 1..=feature.count {
@@ -185,24 +235,153 @@ impl<'a> Listing<'a> {
                 if !self.selection.keeps_volume(&name) {
                     continue;
                 }
-                let volume = self.volumes.len();
-                self.volumes
-                    .push(self.rules_of(feature, &name, parent.map(|parent| parent.1)));
+                let mut rules = self.rules_of(feature, &name, parent.map(|parent| parent.1));
+                let ready = match &feature.kind {
+                    FeatureKind::Horizon(spec) => {
+                        rules.from = spec.onlapping.then_some(self.open);
+                        self.open = self.volumes.len();
+                        Some(self.horizon(index)?)
+                    }
+                    _ => None,
+                };
                 let key = format!("{numbers}{number}");
-                self.planned.push(Planned {
-                    volume,
-                    feature: index,
-                    parent: parent.map(|parent| parent.1),
-                    depth: numbers.matches('.').count(),
-                    number: key.clone(),
-                });
+                let volume = self.push(rules, index, numbers, key.clone(), ready);
                 self.instances(
                     Some((index, volume)),
                     &format!("{name}/"),
                     &format!("{key}."),
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn push(
+        &mut self,
+        rules: VolumeRules,
+        feature: usize,
+        numbers: &str,
+        number: String,
+        ready: Option<(Body, Vec<(String, f64)>)>,
+    ) -> usize {
+        let volume = self.volumes.len();
+        self.planned.push(Planned {
+            volume,
+            feature,
+            parent: rules.parent,
+            depth: numbers.matches('.').count(),
+            number,
+            ready,
+        });
+        self.volumes.push(rules);
+        volume
+    }
+
+    /// What lies above a horizon, with what was drawn for it.
+    fn horizon(&self, feature: usize) -> Result<(Body, Vec<(String, f64)>), RealisationError> {
+        let impossible = |reason: String| RealisationError::Impossible {
+            volume: self.model.features[feature].id.clone(),
+            reason,
+        };
+        let (horizon, drawn) = self
+            .horizons
+            .get(&feature)
+            .ok_or_else(|| impossible("it is no horizon".to_owned()))?;
+        let side = strata::above(horizon, &self.model.domain).map_err(impossible)?;
+        Ok((Body::Side(side), drawn.clone()))
+    }
+
+    /// The horizon that bounds the domain: its own, or the block's.
+    fn domain_bound(&self, top: bool) -> Result<Horizon, RealisationError> {
+        let domain = &self.model.domain;
+        let surface = if top { &domain.top } else { &domain.base };
+        let impossible = |reason: String| RealisationError::Impossible {
+            volume: "domain".to_owned(),
+            reason,
+        };
+        match surface {
+            Some(surface) => {
+                let which = if top { "top" } else { "base" };
+                let draw = |key: draws::Key<'_>| strata::horizon(surface, key);
+                Ok(draw_whole(self.model, "domain", which, draw)?.0.0)
+            }
+            None => Horizon::flat(domain.z[usize::from(top)])
+                .map_err(|error| impossible(error.to_string())),
+        }
+    }
+
+    /// Lists the clinothems of a set, and their belts: all sheets first, then the belts of each clinothem.
+    fn clinoforms(
+        &mut self,
+        index: usize,
+        spec: &ClinoformsSpec,
+        parent: Option<(usize, usize)>,
+        path: &str,
+    ) -> Result<(), RealisationError> {
+        let feature = &self.model.features[index];
+        let base = match parent {
+            Some((unit, _)) => self.horizons.get(&unit).map(|drawn| drawn.0.clone()),
+            None => Some(self.domain_bound(false)?),
+        };
+        let top = match spec.top {
+            Bound::Horizon(unit) => self.horizons.get(&unit).map(|drawn| drawn.0.clone()),
+            Bound::Domain => Some(self.domain_bound(true)?),
+        };
+        let (Some(base), Some(top)) = (base, top) else {
+            return Err(RealisationError::Impossible {
+                volume: feature.id.clone(),
+                reason: "its base or its top is no horizon".to_owned(),
+            });
+        };
+        let domain = &self.model.domain;
+        let draw = |key: draws::Key<'_>| strata::clinoforms(spec, domain, &base, &top, key);
+        let (set, reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
+        let rejected = reasons.into_iter().map(|reason| (index, reason));
+        self.rejected.extend(rejected);
+        let unit = parent.map_or(BACKGROUND, |parent| parent.1);
+        let name = |clinothem: usize, belt: Option<&str>| match belt {
+            None => format!("{path}{}-{clinothem}", feature.id),
+            Some(belt) => format!("{path}{}-{clinothem}/{belt}", feature.id),
+        };
+        let volume = |list: &mut Self, name: &str, from: usize, belt: usize, body: Body, drawn| {
+            let mut rules = list.rules_of(feature, name, Some(unit));
+            rules.from = Some(from);
+            if let Some(belt) = spec.belts.get(belt) {
+                rules
+                    .facies
+                    .clone_from(&list.model.facies[belt.facies].name);
+            }
+            list.push(rules, index, "", name.to_owned(), Some((body, drawn)))
+        };
+        let landward = spec.belts.first().map(|belt| belt.name.as_str());
+        let mut firsts = Vec::with_capacity(set.sheets.len() + 1);
+        let mut from = unit;
+        if landward.is_some() {
+            let everywhere = Body::Side(Side::Everywhere.into());
+            from = volume(self, &name(0, landward), from, 0, everywhere, Vec::new());
+        }
+        firsts.push(from);
+        for (at, sheet) in set.sheets.into_iter().enumerate() {
+            let body = Body::Side(sheet.side);
+            from = volume(self, &name(at + 1, landward), from, 0, body, sheet.drawn);
+            firsts.push(from);
+        }
+        for (clinothem, (first, boundaries)) in firsts.into_iter().zip(set.boundaries).enumerate() {
+            let mut from = first;
+            for (at, boundary) in boundaries.into_iter().enumerate() {
+                let belt = spec.belts.get(at + 1).map(|belt| belt.name.as_str());
+                let body = Body::Side(boundary.side);
+                from = volume(
+                    self,
+                    &name(clinothem, belt),
+                    from,
+                    at + 1,
+                    body,
+                    boundary.drawn,
                 );
             }
         }
+        Ok(())
     }
 
     fn rules_of(&self, feature: &Feature, name: &str, parent: Option<usize>) -> VolumeRules {
@@ -219,6 +398,45 @@ impl<'a> Listing<'a> {
             from: None,
         }
     }
+}
+
+/// Draws something that is no single instance, again and again until it is possible; with the reasons of what was
+/// rejected.
+fn draw_whole<T>(
+    model: &Model,
+    id: &str,
+    instance: &str,
+    draw: impl Fn(draws::Key<'_>) -> Result<T, Rejected>,
+) -> Result<(T, Vec<&'static str>), RealisationError> {
+    let mut reasons = Vec::new();
+    let mut last = String::new();
+    for attempt in 0..MOST_ATTEMPTS {
+        let key = draws::Key {
+            seed: model.seed,
+            feature: id,
+            instance,
+            attempt,
+        };
+        match draw(key) {
+            Ok(made) => return Ok((made, reasons)),
+            Err(rejected) if rejected.drawn == 0 => {
+                return Err(RealisationError::Impossible {
+                    volume: id.to_owned(),
+                    reason: rejected.message,
+                });
+            }
+            Err(rejected) => {
+                reasons.push(rejected.reason);
+                last = rejected.message;
+            }
+        }
+    }
+    Err(RealisationError::Exhausted {
+        volume: id.to_owned(),
+        attempts: MOST_ATTEMPTS,
+        reasons: counted(&reasons),
+        last,
+    })
 }
 
 /// An instance, with the reasons of its rejected attempts.
@@ -254,13 +472,13 @@ fn realise_all(
     Ok(made.into_iter().flatten().collect())
 }
 
-/// The shells of those parents by which their children are placed.
+/// What those parents hold by which their children are placed.
 fn parents(
     model: &Model,
     children: &[&Planned],
     made: &[Option<Made>],
     volumes: &[VolumeRules],
-) -> Result<BTreeMap<usize, Enclosure>, RealisationError> {
+) -> Result<BTreeMap<usize, Interior>, RealisationError> {
     let wanted: BTreeSet<usize> = children
         .iter()
         .filter(|one| draws::wants_parent(&model.features[one.feature].kind))
@@ -270,20 +488,15 @@ fn parents(
         .iter()
         .filter_map(|volume| made[volume - 1].as_ref().map(|(parent, _)| parent))
         .collect();
-    let shell = |parent: &Instance| {
-        let open = |reason: String| RealisationError::Impossible {
-            volume: volumes[parent.volume].name.clone(),
-            reason: format!("its shell is not closed, so no child can be placed in it: {reason}"),
-        };
-        let sheets = parent
-            .body
-            .sheets()
-            .map_err(|error| open(error.to_string()))?;
-        let shell = Enclosure::new(sheets.into_iter().map(|sheet| sheet.1).collect())
-            .map_err(|error| open(error.to_string()))?;
-        Ok((parent.volume, shell))
+    let interior = |parent: &Instance| {
+        let interior =
+            Interior::of(&parent.body).map_err(|error| RealisationError::Impossible {
+                volume: volumes[parent.volume].name.clone(),
+                reason: format!("no child can be placed in it: {error}"),
+            })?;
+        Ok((parent.volume, interior))
     };
-    bodies.into_par_iter().map(shell).collect()
+    bodies.into_par_iter().map(interior).collect()
 }
 
 /// Draws and builds one instance.
@@ -293,50 +506,28 @@ fn realise(
     name: &str,
     place: Surroundings<'_>,
 ) -> Result<Made, RealisationError> {
-    let feature = &model.features[planned.feature];
-    let mut reasons: Vec<&'static str> = Vec::new();
-    let mut last = String::new();
-    for attempt in 0..MOST_ATTEMPTS {
-        let key = draws::Key {
-            seed: model.seed,
-            feature: &feature.id,
-            instance: &planned.number,
-            attempt,
+    if let Some((body, drawn)) = &planned.ready {
+        let instance = Instance {
+            volume: planned.volume,
+            feature: planned.feature,
+            body: body.clone(),
+            drawn: drawn.clone(),
+            rejected: 0,
         };
-        match draws::body(&feature.kind, place, key) {
-            Ok(Drawn { body, drawn }) => {
-                let rejected = attempt;
-                let instance = Instance {
-                    volume: planned.volume,
-                    feature: planned.feature,
-                    body,
-                    drawn,
-                    rejected,
-                };
-                return Ok((instance, reasons));
-            }
-            Err(Rejected {
-                reason,
-                message,
-                drawn,
-            }) => {
-                if drawn == 0 {
-                    return Err(RealisationError::Impossible {
-                        volume: name.to_owned(),
-                        reason: message,
-                    });
-                }
-                reasons.push(reason);
-                last = message;
-            }
-        }
+        return Ok((instance, Vec::new()));
     }
-    Err(RealisationError::Exhausted {
-        volume: name.to_owned(),
-        attempts: MOST_ATTEMPTS,
-        reasons: counted(&reasons),
-        last,
-    })
+    let feature = &model.features[planned.feature];
+    let draw = |key: draws::Key<'_>| {
+        let rejected = key.attempt;
+        draws::body(&feature.kind, place, key).map(|Drawn { body, drawn }| Instance {
+            volume: planned.volume,
+            feature: planned.feature,
+            body,
+            drawn,
+            rejected,
+        })
+    };
+    draw_whole(model, &feature.id, &planned.number, draw).map_err(|error| error.of(name))
 }
 
 /// Reasons with how often each occurred, most frequent first.

@@ -1,10 +1,12 @@
 //! Draws: one attempt at one instance, from its quantities to its surfaces.
 
+pub(super) mod strata;
 mod trajectory;
 
 use glam::{DVec2, DVec3};
 
 use super::distribution::Distribution;
+use super::interior::Interior;
 use super::profile::Profile as ProfileSpec;
 use super::quantity::Quantity;
 use super::spec::{ChannelSpec, Domain, EllipsoidSpec, FeatureKind, SectionOrigin};
@@ -13,7 +15,6 @@ use crate::features::body::{Body, Trough};
 use crate::features::channel::{ChannelDesign, Origin};
 use crate::features::ellipsoid::{Ellipsoid, EllipsoidDesign};
 use crate::features::profile::Profile;
-use crate::nurbs::enclosure::Enclosure;
 
 /// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
 /// two widths are added. Ends well outside leave the domain's walls to be crossed cleanly.
@@ -37,11 +38,11 @@ pub(super) struct Key<'a> {
 pub(super) struct Surroundings<'a> {
     /// The block that is modelled.
     pub(super) domain: &'a Domain,
-    /// The shell of the parent, for kinds that ask for it ([`wants_parent`]).
-    pub(super) parent: Option<&'a Enclosure>,
+    /// What the parent holds, for kinds that ask for it ([`wants_parent`]).
+    pub(super) parent: Option<&'a Interior>,
 }
 
-/// Whether a kind is placed by its parent's shell.
+/// Whether a kind is placed by what its parent holds.
 pub(super) fn wants_parent(kind: &FeatureKind) -> bool {
     match kind {
         FeatureKind::Channel(_) | FeatureKind::Horizon(_) | FeatureKind::Clinoforms(_) => false,
@@ -82,10 +83,11 @@ pub(super) fn body(
     let made = match kind {
         FeatureKind::Channel(spec) => channel(spec, place.domain, &mut draws).map(Body::Trough),
         FeatureKind::Ellipsoid(spec) => ellipsoid(spec, place, &mut draws).map(Body::Ellipsoid),
+        // These are drawn when the volumes are listed, which depends on what is drawn.
         FeatureKind::Horizon(_) | FeatureKind::Clinoforms(_) => Err((
-            "not built yet",
+            "no single body",
             format!(
-                "features of the kind \"{}\" cannot be built by this version; leave them out with --without",
+                "a feature of the kind \"{}\" is drawn as a whole",
                 kind.name()
             ),
         )),

@@ -1,0 +1,274 @@
+//! Draws of strata: horizons, and clinoform sets with their facies belts.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Draws, Key, Reason, Rejected};
+use crate::features::boundary::{BoundaryDesign, FaciesBoundary, Wander};
+use crate::features::clinoform::{Clinoform, ClinoformDesign};
+use crate::features::frame::{ClinoformFrame, ClinoformUnit, Shoreline};
+use crate::features::horizon::Horizon;
+use crate::features::side::Side;
+use crate::model::spec::{Belt, ClinoformsSpec, Domain, HorizonSurface, Interfingering};
+
+/// Most sheets of a set: a spacing that is far too small is found out before the memory is full.
+const MOST_SHEETS: usize = 500;
+/// `toe` where the bounds are not level and none is given: a sheet that meets a bent base tangentially would cross it
+/// again and again.
+const TOE: f64 = 0.3;
+/// Distance between the nodes of a facies boundary along strike (m).
+const NODES: [f64; 2] = [60.0, 120.0];
+/// Fewest legs of a facies boundary along strike.
+const LEGS: f64 = 6.0;
+
+/// A side with what was drawn for it.
+#[derive(Clone, Debug)]
+pub(in crate::model) struct DrawnSide {
+    pub(in crate::model) side: Arc<Side>,
+    pub(in crate::model) drawn: Vec<(String, f64)>,
+}
+
+/// A clinoform set.
+#[derive(Clone, Debug)]
+pub(in crate::model) struct DrawnSet {
+    /// The sheets, oldest first.
+    pub(in crate::model) sheets: Vec<DrawnSide>,
+    /// By clinothem, from the one below the first sheet to the one above the last: the boundaries between its belts,
+    /// landward ones first.
+    pub(in crate::model) boundaries: Vec<Vec<DrawnSide>>,
+}
+
+/// The corners of a domain.
+fn corners(domain: &Domain) -> (DVec3, DVec3) {
+    let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
+    (corner(0), corner(1))
+}
+
+/// What one attempt at something made, or why it made nothing.
+fn attempt<T>(
+    key: Key<'_>,
+    make: impl FnOnce(&mut Draws<'_>) -> Result<T, Reason>,
+) -> Result<(T, Vec<(String, f64)>), Rejected> {
+    let mut draws = Draws {
+        key,
+        drawn: Vec::new(),
+    };
+    match make(&mut draws) {
+        Ok(made) => Ok((made, draws.drawn)),
+        Err((reason, message)) => Err(Rejected {
+            reason,
+            message,
+            drawn: draws.drawn.len(),
+        }),
+    }
+}
+
+/// Draws a horizon.
+pub(in crate::model) fn horizon(
+    surface: &HorizonSurface,
+    key: Key<'_>,
+) -> Result<(Horizon, Vec<(String, f64)>), Rejected> {
+    let wrong = |error: crate::features::horizon::HorizonError| ("no horizon", error.to_string());
+    attempt(key, |draws| match surface {
+        HorizonSurface::Level(level) => {
+            Horizon::flat(draws.quantity(level, "surface.level")?).map_err(wrong)
+        }
+        HorizonSurface::Dipping {
+            through: [x, y, z],
+            dip_deg,
+            azimuth_deg,
+        } => {
+            let through = DVec3::new(
+                draws.quantity(x, "surface.dipping.through.x")?,
+                draws.quantity(y, "surface.dipping.through.y")?,
+                draws.quantity(z, "surface.dipping.through.z")?,
+            );
+            let dip = draws.quantity(dip_deg, "surface.dipping.dip_deg")?;
+            let azimuth = draws.quantity(azimuth_deg, "surface.dipping.azimuth_deg")?;
+            Horizon::dipping(through, dip.to_radians(), azimuth.to_radians()).map_err(wrong)
+        }
+        HorizonSurface::Grid { x, y, heights } => Horizon::grid(*x, *y, heights).map_err(wrong),
+        HorizonSurface::Points { points, tolerance } => {
+            let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(*p)).collect();
+            Horizon::points(&points, *tolerance).map_err(wrong)
+        }
+    })
+}
+
+/// The side above a horizon.
+pub(in crate::model) fn above(horizon: &Horizon, domain: &Domain) -> Result<Arc<Side>, String> {
+    let (low, high) = corners(domain);
+    Side::horizon(horizon.clone(), low, high)
+        .map(Arc::new)
+        .map_err(|error| error.to_string())
+}
+
+/// Draws a clinoform set between two horizons.
+pub(in crate::model) fn clinoforms(
+    spec: &ClinoformsSpec,
+    domain: &Domain,
+    base: &Horizon,
+    top: &Horizon,
+    key: Key<'_>,
+) -> Result<DrawnSet, Rejected> {
+    attempt(key, |draws| {
+        let (low, high) = corners(domain);
+        let wrong = |error: crate::features::frame::FrameError| ("no set", error.to_string());
+        let azimuth = draws.quantity(&spec.azimuth_deg, "azimuth_deg")?;
+        let shoreline = Shoreline {
+            dip: draws.quantity(&spec.shoreline[0], "shoreline.dip")?,
+            strike: draws.quantity(&spec.shoreline[1], "shoreline.strike")?,
+        };
+        let level = base.level().is_some() && top.level().is_some();
+        let toe = match &spec.toe {
+            Some(toe) => draws.quantity(toe, "toe")?,
+            None if level => 0.0,
+            None => TOE,
+        };
+        let set = Set {
+            spec,
+            frame: ClinoformFrame::new(low, high, azimuth.to_radians()).map_err(wrong)?,
+            unit: ClinoformUnit::new(base.clone(), top.clone(), low, high).map_err(wrong)?,
+            shoreline,
+            exponent: draws.quantity(&spec.exponent, "exponent")?,
+            toe,
+        };
+        set.draw(draws)
+    })
+    .map(|made| made.0)
+}
+
+/// A clinoform set while it is drawn.
+struct Set<'a> {
+    spec: &'a ClinoformsSpec,
+    frame: ClinoformFrame,
+    unit: ClinoformUnit,
+    shoreline: Shoreline,
+    exponent: f64,
+    toe: f64,
+}
+
+impl Set<'_> {
+    fn draw(&self, draws: &mut Draws<'_>) -> Result<DrawnSet, Reason> {
+        let mut origin = self.frame.first_origin(self.shoreline);
+        let mut sheets: Vec<(Clinoform, Vec<(String, f64)>)> = Vec::new();
+        let mut boundaries = Vec::new();
+        for number in 1.. {
+            let before = draws.drawn.len();
+            let (step, parameter) = match number {
+                1 => (&self.spec.first, "first".to_owned()),
+                _ => (&self.spec.spacing, format!("spacing-{number}")),
+            };
+            let step = draws.quantity(step, &parameter)?;
+            if !(step > 0.0) {
+                let message =
+                    format!("{parameter} is {step} m: clinoforms prograde, give more than 0");
+                return Err(("no progradation", message));
+            }
+            origin += step;
+            let design = ClinoformDesign {
+                origin,
+                shoreline: self.shoreline,
+                length: draws.quantity(&self.spec.length, &format!("length-{number}"))?,
+                exponent: self.exponent,
+                toe: self.toe,
+            };
+            let sheet = Clinoform::new(&design, &self.frame, &self.unit)
+                .map_err(|error| ("no clinoform", format!("sheet {number}: {error}")))?;
+            // By default the first sheet whose shoreline has left the domain is not in it, but the last clinothem's
+            // belts are measured from it.
+            let is_last = match self.spec.sheets {
+                Some(count) => number > count,
+                None => self.frame.is_beyond(origin, self.shoreline),
+            };
+            let drawn = draws.drawn.split_off(before);
+            boundaries.push(self.boundaries(number - 1, &sheet, draws)?);
+            if is_last {
+                break;
+            }
+            if number > MOST_SHEETS {
+                let message = format!(
+                    "more than {MOST_SHEETS} sheets have their shoreline in the domain: make `spacing` larger or give `sheets`"
+                );
+                return Err(("too many sheets", message));
+            }
+            sheets.push((sheet, drawn));
+        }
+        let side = |(sheet, drawn)| DrawnSide {
+            side: Arc::new(Side::Clinoform(sheet)),
+            drawn,
+        };
+        Ok(DrawnSet {
+            sheets: sheets.into_iter().map(side).collect(),
+            boundaries,
+        })
+    }
+
+    /// The boundaries between the belts of a clinothem, given the sheet that bounds it above.
+    fn boundaries(
+        &self,
+        clinothem: usize,
+        younger: &Clinoform,
+        draws: &mut Draws<'_>,
+    ) -> Result<Vec<DrawnSide>, Reason> {
+        let mut distance = 0.0;
+        let mut made = Vec::new();
+        for Belt {
+            name,
+            width,
+            interfingering,
+            ..
+        } in &self.spec.belts
+        {
+            let Some(width) = width else { break };
+            let before = draws.drawn.len();
+            distance += draws.quantity(width, &format!("{name}-{clinothem}.width"))?;
+            let range = match interfingering {
+                Some(range) => {
+                    draws.quantity(range, &format!("{name}-{clinothem}.interfingering"))?
+                }
+                None => 0.0,
+            };
+            let nodes = self.nodes(draws, &format!("{name}-{clinothem}.wander"));
+            let design = BoundaryDesign {
+                distance,
+                interfingering: range,
+                wander: match self.spec.interfingering {
+                    Interfingering::Smooth => Wander::Smooth(nodes),
+                    Interfingering::Zigzag => Wander::Zigzag(nodes),
+                },
+            };
+            let boundary = FaciesBoundary::new(&design, younger, &self.unit).map_err(|error| {
+                let message = format!("belt {name} of clinothem {clinothem}: {error}");
+                ("no facies boundary", message)
+            })?;
+            made.push(DrawnSide {
+                side: Arc::new(Side::Boundary(boundary)),
+                drawn: draws.drawn.split_off(before),
+            });
+        }
+        Ok(made)
+    }
+
+    /// Where a boundary's line turns along strike: at random intervals, to one side and the other.
+    fn nodes(&self, draws: &Draws<'_>, parameter: &str) -> Vec<[f64; 2]> {
+        let mut stream = draws.stream(parameter);
+        let reach = self.frame.reach();
+        let longest = 2.0 * reach / LEGS;
+        let scale = (longest / NODES[1]).min(1.0);
+        let mut q = -reach - scale * NODES[1] * stream.unit();
+        let mut side = if stream.unit() < 0.5 { -0.5 } else { 0.5 };
+        let mut nodes = vec![[q, side]];
+        while q < reach {
+            q += scale * (NODES[0] + (NODES[1] - NODES[0]) * stream.unit());
+            side = -side;
+            let part = match self.spec.interfingering {
+                Interfingering::Smooth => 2.0 * stream.unit() - 1.0,
+                Interfingering::Zigzag => 1.0,
+            };
+            nodes.push([q, side * part]);
+        }
+        nodes
+    }
+}
