@@ -394,3 +394,7 @@ fn sheet(
     let across = KnotVector::uniform(1, 2)?;
     Ok(Surface::new(across, along.clone(), net)?)
 }
+
+#[cfg(test)]
+#[path = "boundary_tests.rs"]
+mod tests;

@@ -82,7 +82,7 @@ pub enum ClinoformError {
     /// The finest sheet is not near enough to the formula.
     #[error(
         "with {spans} spans the clinoform is still {reached:.4} m from its formula ({what}), more than {TOLERANCE} m; \
-         make the horizons smoother or the shoreline's ellipse wider"
+         make the horizons smoother, the shoreline's ellipse wider or the exponent smaller"
     )]
     Deviation {
         /// What deviates.
@@ -475,3 +475,7 @@ fn more(spans: usize, what: &'static str, reached: f64) -> Result<usize, Clinofo
         })
     }
 }
+
+#[cfg(test)]
+#[path = "clinoform_tests.rs"]
+mod tests;
