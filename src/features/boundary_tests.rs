@@ -200,6 +200,16 @@ fn nodes_beyond_the_strikes_are_cut_off_there() {
 }
 
 #[test]
+fn where_the_line_passes_the_toe_at_an_angle_its_corner_is_rounded_by_decimetres() {
+    let case = case(320.0, 0.3);
+    let wander = Wander::Smooth(nodes(case.frame.reach(), alternating));
+    let design = design(250.0, 60.0, wander);
+    let boundary = FaciesBoundary::new(&design, &case.younger, &case.unit).unwrap();
+    let deviation = boundary.deviation();
+    assert!((TOLERANCE..0.3).contains(&deviation), "{deviation}");
+}
+
+#[test]
 fn sheets_reach_a_twentieth_of_the_height_beyond_the_unit() {
     let case = case(45.0, 0.0);
     let wander = Wander::Zigzag(nodes(case.frame.reach(), alternating));

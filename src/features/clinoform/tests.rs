@@ -359,3 +359,31 @@ fn numbers_that_make_no_clinoform_are_refused() {
         Err(FrameError::Domain { .. })
     ));
 }
+
+#[test]
+fn measuring_radially_instead_of_along_dip_changes_sheets_of_table_1_by_less_than_3_millimetres() {
+    let frame = frame(320.0);
+    for length in [150.0, 900.0] {
+        let design = ClinoformDesign {
+            length,
+            ..design(&frame, 2.0, 0.0)
+        };
+        let sheet = Clinoform::new(&design, &frame, &flat()).unwrap();
+        let mut met = 0;
+        for place in places() {
+            let local = frame.local(place);
+            // Polar coordinates about the origin, φ from the dip axis.
+            let (x, y) = (local.x - design.origin, local.y);
+            let (phi, r) = (y.atan2(x), x.hypot(y));
+            let radius = |a: f64, b: f64| a * b / (b * phi.cos()).hypot(a * phi.sin());
+            let least = radius(3000.0, 6000.0);
+            let most = radius(3000.0 + length, 6000.0 + length);
+            let s = ((most - r) / (most - least)).max(0.0);
+            if let Some(z) = sheet.elevation(local.x, local.y) {
+                assert!((z - (-21.3 + 21.0 * s * s)).abs() < 3e-3);
+                met += 1;
+            }
+        }
+        assert!(met > 50);
+    }
+}
