@@ -214,10 +214,10 @@ impl Fit<'_> {
     }
 }
 
-/// Twice as many spans, if that is not too many.
+/// Half as many spans again, if that is not too many.
 fn more(spans: usize, what: &'static str, reached: f64) -> Result<usize, ClinoformError> {
     if spans < MOST_SPANS {
-        Ok((2 * spans).min(MOST_SPANS))
+        Ok((3 * spans).div_ceil(2).min(MOST_SPANS))
     } else {
         Err(ClinoformError::Deviation {
             what,
