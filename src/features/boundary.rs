@@ -10,7 +10,8 @@
 //!
 //! on that sheet, and past its toe on the base. From there it runs straight along the direction I e + h z, up and
 //! basinwards, h the unit's mean height: over the height of the unit the belts interfinger across I. The line is a cubic
-//! spline in q; where it passes the toe of the younger sheet, the corner is rounded within a span.
+//! spline in q; where it passes the toe of the younger sheet, the corner is rounded within a span
+//! ([`FaciesBoundary::deviation`] tells by how much).
 //!
 //! Rulings are straight and all parallel, and the sheets' upper and lower borders are level, so every place of a sheet
 //! follows from q and z, and which side a point is on is as exact as the sheet itself.
@@ -394,3 +395,7 @@ fn sheet(
     let across = KnotVector::uniform(1, 2)?;
     Ok(Surface::new(across, along.clone(), net)?)
 }
+
+#[cfg(test)]
+#[path = "boundary_tests.rs"]
+mod tests;

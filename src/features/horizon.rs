@@ -364,3 +364,7 @@ fn counts(extent: DVec2, cells: usize) -> [usize; 2] {
     let along = |length: f64| ((length / size).round() as usize).max(1) + 1;
     [along(extent.x), along(extent.y)]
 }
+
+#[cfg(test)]
+#[path = "horizon_tests.rs"]
+mod tests;

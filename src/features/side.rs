@@ -113,3 +113,53 @@ impl HorizonSheet {
         point.z > height
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+    use super::*;
+
+    const LOW: DVec3 = DVec3::new(0.0, 0.0, -30.0);
+    const HIGH: DVec3 = DVec3::new(400.0, 700.0, 0.0);
+
+    #[test]
+    fn a_horizon_holds_what_is_above_it_to_a_nanometre_in_the_domain_and_beyond() {
+        let rows = [
+            vec![-20.0, -18.0, -21.0, -19.0],
+            vec![-22.0, -20.0, -19.0, -18.0],
+            vec![-20.0, -17.0, -22.0, -21.0],
+        ];
+        let horizon = Horizon::grid([0.0, 300.0], [0.0, 700.0], &rows).unwrap();
+        let side = Side::horizon(horizon.clone(), LOW, HIGH).unwrap();
+        let sheet = &side.sheets()[0];
+        for k in 0..200 {
+            let part = |ratio: f64| (f64::from(k) * ratio).fract();
+            let on = sheet.point(part(0.754_877_666), part(0.569_840_291));
+            assert!(side.holds(on + 1e-9 * DVec3::Z));
+            assert!(!side.holds(on - 1e-9 * DVec3::Z));
+        }
+        let far = DVec2::new(900.0, -300.0);
+        let height = horizon.height(far.x, far.y);
+        assert!(side.holds(far.extend(height + 1e-9)));
+        assert!(!side.holds(far.extend(height - 1e-9)));
+        let (low, high) = side.bounds();
+        assert!((low.truncate() - DVec2::new(-20.0, -35.0)).length() < 1e-9);
+        assert!((high.truncate() - DVec2::new(420.0, 735.0)).length() < 1e-9);
+        assert!(low.z < -21.9 && high.z > -17.1);
+        assert_eq!(side.level(), None);
+    }
+
+    #[test]
+    fn a_level_horizon_knows_its_level_and_everywhere_has_no_sheet() {
+        let side = Side::horizon(Horizon::flat(-21.3).unwrap(), LOW, HIGH).unwrap();
+        assert_eq!(side.level(), Some(-21.3));
+        assert!(side.sheets()[0].net().iter().all(|p| p.z == -21.3));
+        assert!(!side.holds(DVec3::new(1.0, 1.0, -21.3)));
+        assert!(side.holds(DVec3::new(1.0, 1.0, -21.299_999)));
+        assert!(Side::Everywhere.sheets().is_empty());
+        assert!(Side::Everywhere.holds(LOW));
+        let (low, high) = Side::Everywhere.bounds();
+        assert!(low.cmpgt(high).all());
+    }
+}

@@ -352,3 +352,103 @@ fn bending([nx, ny]: [usize; 2]) -> Vec<(Vec<(usize, f64)>, f64)> {
     }
     rows
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+    use super::*;
+
+    const LOW: DVec2 = DVec2::new(10.0, -5.0);
+
+    #[test]
+    fn along_an_axis_it_is_the_natural_cubic_spline() {
+        // Through 0, 1, 0: 3/2 t − 1/2 t³ up to the middle. Constant along y.
+        let heights = [0.0, 0.0, 1.0, 1.0, 0.0, 0.0];
+        let high = LOW + DVec2::new(2.0, 7.0);
+        let lattice = Lattice::interpolated(LOW, high, [3, 2], &heights).unwrap();
+        for t in [0.0, 0.3, 0.5, 1.0] {
+            let at = LOW + DVec2::new(t, 3.1);
+            assert!((lattice.value(at) - (1.5 * t - 0.5 * t * t * t)).abs() < 1e-14);
+            let mirrored = LOW + DVec2::new(2.0 - t, 3.1);
+            assert!((lattice.value(at) - lattice.value(mirrored)).abs() < 1e-14);
+        }
+        // Beyond the ends straight, with the slope of 3/2 there.
+        assert!((lattice.value(LOW - DVec2::new(4.0, 0.0)) - -6.0).abs() < 1e-14);
+        assert!((lattice.value(LOW + DVec2::new(6.0, 9.0)) - -6.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_part_is_the_same_function_within_the_lattice_and_across_its_borders() {
+        let heights: Vec<f64> = (0..35).map(|k| (f64::from(k) * 1.7).sin()).collect();
+        let high = LOW + DVec2::new(6.0, 4.0);
+        let lattice = Lattice::interpolated(LOW, high, [7, 5], &heights).unwrap();
+        let (from, to) = (LOW - DVec2::new(3.0, -1.3), high + DVec2::new(-2.4, 5.0));
+        let (u, v, net) = lattice.part(from, to).unwrap();
+        let nv = v.count();
+        for (a, b) in [
+            (0.0, 0.0),
+            (0.2, 0.9),
+            (0.35, 0.33),
+            (0.78, 0.1),
+            (1.0, 1.0),
+        ] {
+            let (in_u, in_v) = (u.basis(a), v.basis(b));
+            let mut sum = 0.0;
+            for (i, n) in in_u.values().iter().enumerate() {
+                for (j, m) in in_v.values().iter().enumerate() {
+                    sum += n * m * net[(in_u.first() + i) * nv + in_v.first() + j];
+                }
+            }
+            let exact = lattice.value(from + (to - from) * DVec2::new(a, b));
+            assert!((sum - exact).abs() < 1e-12, "{a} {b}: {sum} {exact}");
+        }
+    }
+
+    #[test]
+    fn a_stiff_fit_is_the_plane_of_least_squares_and_a_loose_one_passes_the_points() {
+        // Corners of a square: the plane of least squares is z = 1/4 + y, missed by 1/4 everywhere.
+        let points = [
+            (0.0, 0.0, 0.0),
+            (2.0, 0.0, 0.5),
+            (0.0, 2.0, 2.5),
+            (2.0, 2.0, 2.0),
+        ]
+        .map(DVec3::from);
+        let (low, high) = (DVec2::splat(-1.0), DVec2::splat(3.0));
+        let stiff = Lattice::fitted(low, high, [7, 9], &points, 1e4).unwrap();
+        let loose = Lattice::fitted(low, high, [7, 9], &points, 1e-6).unwrap();
+        for p in points {
+            let (x, y) = (p.x, p.y);
+            assert!(
+                (stiff.value(p.truncate()) - (0.25 + y)).abs() < 1e-3,
+                "{x} {y}"
+            );
+            assert!((loose.value(p.truncate()) - p.z).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn numbers_that_make_no_lattice_are_refused() {
+        let high = LOW + DVec2::ONE;
+        let made =
+            |high, counts, heights: &[f64]| Lattice::interpolated(LOW, high, counts, heights);
+        assert!(matches!(
+            made(high, [1, 2], &[0.0; 2]),
+            Err(LatticeError::Count { found: 2, .. })
+        ));
+        assert!(matches!(
+            made(LOW, [2, 2], &[0.0; 4]),
+            Err(LatticeError::Extent { .. })
+        ));
+        assert!(matches!(
+            made(high, [2, 2], &[0.0, 0.0, f64::NAN, 0.0]),
+            Err(LatticeError::Height { i: 1, j: 0, .. })
+        ));
+        let point = [DVec3::INFINITY];
+        assert!(matches!(
+            Lattice::fitted(LOW, high, [2, 2], &point, 1.0),
+            Err(LatticeError::Point { index: 0, .. })
+        ));
+    }
+}
