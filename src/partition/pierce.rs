@@ -17,6 +17,8 @@ pub(super) struct Segment {
     /// Its part of the curve's parameters.
     pub(super) t: [f64; 2],
     bounds: Bounds,
+    /// How much larger its box is than it.
+    slack: f64,
 }
 
 /// A place where a curve passes through a sheet.
@@ -40,7 +42,19 @@ impl Segment {
     pub(super) fn new(points: impl IntoIterator<Item = DVec4>, t: [f64; 2]) -> Self {
         let points: SmallVec<[DVec4; 8]> = points.into_iter().collect();
         let bounds = Bounds::of(points.iter().map(|h| h.xyz() / h.w));
-        Self { points, t, bounds }
+        Self {
+            points,
+            t,
+            bounds,
+            slack: 0.0,
+        }
+    }
+
+    /// The same, with a box that is larger on all sides: what it only touches counts as met.
+    pub(super) fn with_slack(mut self, slack: f64) -> Self {
+        self.slack = slack;
+        self.bounds = self.bounds.grown(slack);
+        self
     }
 
     fn places(&self) -> impl Iterator<Item = DVec3> + Clone {
@@ -75,8 +89,8 @@ impl Segment {
         }
         let middle = 0.5 * (self.t[0] + self.t[1]);
         [
-            Self::new(low, [self.t[0], middle]),
-            Self::new(high, [middle, self.t[1]]),
+            Self::new(low, [self.t[0], middle]).with_slack(self.slack),
+            Self::new(high, [middle, self.t[1]]).with_slack(self.slack),
         ]
     }
 

@@ -290,9 +290,11 @@ impl Regions {
         };
         self.sheets[sheet].open.retain(|open| *open != border);
         self.sheets[sheet].lands_on.push(landing.sheet);
+        // It passes through the sides of the level's neighbours on their very borders.
+        let near = |segment: Segment| segment.with_slack(tolerance);
         self.edges.push(Edge {
-            segments: segments(&curve),
-            bounds,
+            segments: segments(&curve).into_iter().map(near).collect(),
+            bounds: bounds.grown(tolerance),
             curve,
             sides: [side; 2],
             landing: Some(landing),

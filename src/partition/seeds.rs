@@ -1,7 +1,7 @@
 //! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
 //!
 //! A pair of patches whose cones of normals have no direction in common crosses in at most one simple arc
-//! (two arcs, or a loop, would need parallel normals somewhere), so one attempt to land on it is enough.
+//! (two arcs, or a loop, would need parallel normals somewhere), so one place on it is enough.
 
 use std::borrow::Cow;
 
@@ -106,15 +106,14 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
-        if let (Some((axis_a, lean_a)), Some((axis_b, lean_b))) = (a.normals, b.normals) {
-            let flat = lean_a < FLAT && lean_b < FLAT;
-            if flat && axis_a.cross(axis_b).length() > lean_a + lean_b {
-                self.land(a, b);
+        let least = LEAST * self.pair.tolerances.scale;
+        let is_small = size_a < least && size_b < least;
+        if cross_once(a, b) {
+            // Where the curve passes far from both middles an attempt may miss it: its halves are asked.
+            if is_small || self.land(a, b) {
                 return;
             }
-        }
-        let least = LEAST * self.pair.tolerances.scale;
-        if size_a < least && size_b < least {
+        } else if is_small {
             if !self.land(a, b) && !self.passes_by(a, b) {
                 self.undecided += 1;
             }
@@ -236,6 +235,14 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     pub(super) fn gave_up(&self) -> bool {
         self.halvings > MOST
     }
+}
+
+/// Whether two patches are so flat, and at such an angle, that they cross in one simple arc if at all.
+fn cross_once(a: &Piece<'_>, b: &Piece<'_>) -> bool {
+    let (Some((axis_a, lean_a)), Some((axis_b, lean_b))) = (a.normals, b.normals) else {
+        return false;
+    };
+    lean_a < FLAT && lean_b < FLAT && axis_a.cross(axis_b).length() > lean_a + lean_b
 }
 
 /// About where a nearly flat patch is nearest to a point.
