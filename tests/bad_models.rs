@@ -280,7 +280,7 @@ const SHOREFACE_EDITS: &[Edit] = &[
     ("sheets = 6", "sheets = 6\nremoves = ▸[]", &["feature \"lower-set\" has `removes`", "remove nothing"]),
     ("sheets = 6", "sheets = 6\npreserve = ▸false", &["feature \"lower-set\" has `preserve`"]),
     ("\"zigzag\"", "▸\"zig-zag\"", &["there is no interfingering \"zig-zag\"", "\"smooth\" or \"zigzag\""]),
-    ("id = \"upper-set\"", "id = ▸\"lower-set-3\"", &["also the name of an instance of feature \"lower-set\""]),
+    ("id = \"scour\"", "id = ▸\"lower-set-3\"", &["also the name of an instance of feature \"lower-set\""]),
     // Belts.
     ("first = 55", "first = 55\nbelts = ▸[]", &["the belts of feature \"upper-set\" are empty", "or leave them out"]),
     ("first = 55", "first = 55\nbelts = ▸3", &["expected a list of belts for feature \"upper-set\", found the number 3"]),
