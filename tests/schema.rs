@@ -14,6 +14,9 @@ const GOOD: &str = include_str!("bad_models/good.toml");
 /// One of everything that the format has.
 const FULL: &str = include_str!("bad_models/full.toml");
 
+/// Horizons and clinoforms.
+const SHOREFACE: &str = include_str!("bad_models/shoreface.toml");
+
 fn as_json(toml: &str) -> Value {
     let value: toml::Value = toml::from_str(toml).unwrap();
     serde_json::to_value(value).unwrap()
@@ -52,7 +55,7 @@ fn the_schema_admits_every_committed_model() {
 #[test]
 fn the_schema_and_the_program_admit_one_of_everything() {
     let validator = jsonschema::validator_for(&schema()).unwrap();
-    for text in [GOOD, FULL] {
+    for text in [GOOD, FULL, SHOREFACE] {
         check(text);
         let errors: Vec<String> = validator
             .iter_errors(&as_json(text))
@@ -115,6 +118,38 @@ fn the_schema_tells_ellipsoids_from_channels() {
     ] {
         assert!(NODULE.contains(find), "{find}");
         let broken = NODULE.replacen(find, replace, 1);
+        assert!(
+            !validator.is_valid(&as_json(&broken)),
+            "admitted: {replace}"
+        );
+    }
+}
+
+#[test]
+fn the_schema_refuses_slips_in_horizons_and_clinoforms() {
+    let validator = jsonschema::validator_for(&schema()).unwrap();
+    for (find, replace) in [
+        ("base = { level = -55 }", "base = -55"),
+        ("base = { level = -55 }", "base = { lvel = -55 }"),
+        ("base = { level = -55 }", "base = { level = \"-55\" }"),
+        ("dip_deg = 1", "dip = 1"),
+        ("through = [0, 0, -1], ", ""),
+        ("y = [-10, 700], ", ""),
+        ("heights = [[", "heights = [[[0], "),
+        ("[400, 0, -20]", "[400, 0]"),
+        (", tolerance = 0.1", ""),
+        ("tolerance = 0.1", "tolerance = 0"),
+        ("\"onlapping\"", "\"conformable\""),
+        ("length = { uniform = [150, 900] }", ""),
+        ("shoreline = [3000, ", "shoreline = [3000, 3000, "),
+        ("sheets = 6", "sheets = 501"),
+        ("\"zigzag\"", "\"zig-zag\""),
+        ("name = \"lsf\"", "name = \"lower shoreface\""),
+        ("name = \"lsf\", ", ""),
+        ("width = 120", "widht = 120"),
+    ] {
+        assert!(SHOREFACE.contains(find), "{find}");
+        let broken = SHOREFACE.replacen(find, replace, 1);
         assert!(
             !validator.is_valid(&as_json(&broken)),
             "admitted: {replace}"

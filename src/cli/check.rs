@@ -6,7 +6,8 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::print;
-use crate::model::rules::Verdict;
+use crate::model::rules::{Rules, Verdict, VolumeRules};
+use crate::model::{HorizonSurface, Quantity};
 
 /// Report every defect of a model file, and how its rules resolve.
 ///
@@ -31,13 +32,17 @@ struct Line {
     facies: String,
     instances: usize,
     parent: Option<String>,
+    /// Whether there is but one of the parent, a horizon's unit.
+    parent_is_unit: bool,
+    /// The feature whose volume it divides, if that is all that it may take.
+    divides: Option<String>,
     removes: Vec<String>,
     spared: Vec<(String, &'static str)>,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, args.json)?;
-    let lines = resolve(&loaded);
+    let lines = resolve(&loaded.realisation.volumes, &loaded.realisation.rules);
     if args.json {
         print::out(&json(&loaded, &lines).to_string());
     } else {
@@ -47,31 +52,51 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// What each feature does to each older one, and to other instances of itself.
-fn resolve(loaded: &Loaded) -> Vec<Line> {
-    let volumes = &loaded.realisation.volumes;
-    let rules = &loaded.realisation.rules;
-    let of = |feature: &str| -> Vec<usize> {
-        (1..volumes.len())
-            .filter(|volume| volumes[*volume].feature == feature)
-            .collect()
-    };
+fn resolve(volumes: &[VolumeRules], rules: &Rules) -> Vec<Line> {
     let mut features: Vec<&str> = Vec::new();
     for volume in &volumes[1..] {
         if !features.contains(&volume.feature.as_str()) {
             features.push(&volume.feature);
         }
     }
-    let line = |feature: &&str| {
-        let feature = *feature;
-        // The youngest instance: it has met every other.
-        let body = of(feature).last().copied().unwrap_or(0);
+    let resolved = Resolved {
+        volumes,
+        rules,
+        features: &features,
+    };
+    features
+        .iter()
+        .map(|feature| resolved.line(feature))
+        .collect()
+}
+
+/// The volumes and their rules, and the features in order of age.
+struct Resolved<'a> {
+    volumes: &'a [VolumeRules],
+    rules: &'a Rules,
+    features: &'a [&'a str],
+}
+
+impl Resolved<'_> {
+    fn of(&self, feature: &str) -> Vec<usize> {
+        (1..self.volumes.len())
+            .filter(|volume| self.volumes[*volume].feature == feature)
+            .collect()
+    }
+
+    /// The features from which a volume takes, and those that it leaves, with the reason.
+    fn fate_of_older(
+        &self,
+        feature: &str,
+        body: usize,
+    ) -> (Vec<String>, Vec<(String, &'static str)>) {
         let (mut removes, mut spared) = (Vec::new(), Vec::new());
-        let holders = std::iter::once("background").chain(features.iter().copied());
+        let holders = std::iter::once("background").chain(self.features.iter().copied());
         for holder in holders {
             let older = if holder == "background" {
                 Some(0)
             } else {
-                of(holder)
+                self.of(holder)
                     .into_iter()
                     .take_while(|volume| *volume < body)
                     .last()
@@ -82,24 +107,74 @@ fn resolve(loaded: &Loaded) -> Vec<Line> {
             } else {
                 holder.to_owned()
             };
-            match rules.verdict(body, older) {
+            match self.rules.verdict(body, older) {
+                Verdict::Takes if self.volumes[body].from == Some(older) => {}
                 Verdict::Takes => removes.push(name),
                 other => spared.push((name, other.reason())),
             }
         }
-        let first = &volumes[body];
+        (removes, spared)
+    }
+
+    fn line(&self, feature: &str) -> Line {
+        let volumes = self.volumes;
+        let own = self.of(feature);
+        let first = own.first().copied().unwrap_or(0);
+        // The youngest instance: it has met every other. Of what divides, only the first meets what others hold.
+        let body = match volumes[first].from {
+            None => own.last().copied().unwrap_or(0),
+            Some(_) => first,
+        };
+        let (removes, spared) = self.fate_of_older(feature, body);
+        let mut facies: Vec<&str> = Vec::new();
+        for volume in &own {
+            if !facies.contains(&volumes[*volume].facies.as_str()) {
+                facies.push(&volumes[*volume].facies);
+            }
+        }
+        let parent = volumes[body].parent.map(|parent| &volumes[parent]);
         Line {
             name: feature.to_owned(),
-            kind: first.kind.clone(),
-            level: first.level,
-            facies: first.facies.clone(),
-            instances: of(feature).len(),
-            parent: first.parent.map(|parent| volumes[parent].feature.clone()),
+            kind: volumes[body].kind.clone(),
+            level: volumes[body].level,
+            facies: facies.join(", "),
+            instances: own.len(),
+            parent: parent.map(|parent| parent.feature.clone()),
+            parent_is_unit: parent.is_some_and(|parent| parent.kind == "horizon"),
+            divides: volumes[body].from.map(|from| volumes[from].feature.clone()),
             removes,
             spared,
         }
-    };
-    features.iter().map(line).collect()
+    }
+}
+
+/// A feature's part in the rules, as text.
+fn paragraph(line: &Line) -> String {
+    let mut out = String::new();
+    let parent = line.parent.as_ref().map_or(String::new(), |parent| {
+        let each = if line.parent_is_unit { "" } else { "each " };
+        format!(", in {each}{parent}")
+    });
+    let _ = writeln!(
+        out,
+        "\n{} ({}, level {}, {}): {} volume{}{parent}",
+        line.name,
+        line.kind,
+        line.level,
+        line.facies,
+        line.instances,
+        if line.instances == 1 { "" } else { "s" }
+    );
+    if let Some(unit) = &line.divides {
+        let _ = writeln!(out, "  divides {unit}");
+    }
+    if !line.removes.is_empty() {
+        let _ = writeln!(out, "  removes {}", line.removes.join(", "));
+    }
+    for (name, reason) in &line.spared {
+        let _ = writeln!(out, "  {name}: {reason}");
+    }
+    out
 }
 
 fn text(loaded: &Loaded, lines: &[Line]) -> String {
@@ -111,27 +186,14 @@ fn text(loaded: &Loaded, lines: &[Line]) -> String {
         "domain x {:?}, y {:?}, z {:?} m of {}",
         model.domain.x, model.domain.y, model.domain.z, model.facies[model.domain.facies].name
     );
+    let bounds = [("base", &model.domain.base), ("top", &model.domain.top)];
+    for (name, surface) in bounds {
+        if let Some(surface) = surface {
+            let _ = writeln!(out, "its {name}: {}", described(surface));
+        }
+    }
     for line in lines {
-        let parent = line
-            .parent
-            .as_ref()
-            .map_or(String::new(), |parent| format!(", in each {parent}"));
-        let _ = writeln!(
-            out,
-            "\n{} ({}, level {}, {}): {} volume{}{parent}",
-            line.name,
-            line.kind,
-            line.level,
-            line.facies,
-            line.instances,
-            if line.instances == 1 { "" } else { "s" }
-        );
-        if !line.removes.is_empty() {
-            let _ = writeln!(out, "  removes {}", line.removes.join(", "));
-        }
-        for (name, reason) in &line.spared {
-            let _ = writeln!(out, "  {name}: {reason}");
-        }
+        out.push_str(&paragraph(line));
     }
     for rejection in &loaded.realisation.rejections {
         let _ = writeln!(
@@ -162,6 +224,7 @@ fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
                 "facies": line.facies,
                 "volumes": line.instances,
                 "parent": line.parent,
+                "divides": line.divides,
                 "removes": line.removes,
                 "spares": spared,
             })
@@ -175,3 +238,34 @@ fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
         .collect();
     serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features, "notes": notes })
 }
+
+/// A surface in a few words.
+fn described(surface: &HorizonSurface) -> String {
+    let number = |quantity: &Quantity| match quantity.support() {
+        (low, high) if low == high => format!("{low}"),
+        (low, high) => format!("{low} to {high}"),
+    };
+    match surface {
+        HorizonSurface::Level(level) => format!("level at {} m", number(level)),
+        HorizonSurface::Dipping {
+            dip_deg,
+            azimuth_deg,
+            ..
+        } => format!(
+            "dipping by {}° towards {}°",
+            number(dip_deg),
+            number(azimuth_deg)
+        ),
+        HorizonSurface::Grid { heights, .. } => {
+            let columns = heights.first().map_or(0, Vec::len);
+            format!("a grid of {} × {columns} heights", heights.len())
+        }
+        HorizonSurface::Points { points, tolerance } => {
+            format!("within {tolerance} m of {} points", points.len())
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "check_tests.rs"]
+mod tests;

@@ -16,7 +16,7 @@ use super::profile::Profile;
 use super::quantity::Quantity;
 use super::read::{Any, Field};
 use super::schema;
-use super::spec::Selector;
+use super::spec::{HorizonSurface, Selector};
 
 /// A surface-based geological model. Lengths in metres, x east, y north, z up; azimuths clockwise from north.
 #[derive(Deserialize, JsonSchema)]
@@ -56,6 +56,12 @@ pub(crate) struct DomainFile {
     pub(crate) y: Field<[f64; 2]>,
     /// [base, top] elevations in metres; z points up.
     pub(crate) z: Field<[f64; 2]>,
+    /// A base within `z`: below it the model has nothing.
+    #[schemars(with = "Option<HorizonSurface>")]
+    pub(crate) base: Option<Field<Any>>,
+    /// A top within `z`: above it the model has nothing.
+    #[schemars(with = "Option<HorizonSurface>")]
+    pub(crate) top: Option<Field<Any>>,
     /// The facies of the background.
     pub(crate) facies: Field<String>,
 }
@@ -164,6 +170,116 @@ pub(crate) struct EllipsoidFile {
     /// Angle of the first axis below the horizontal in degrees, between -90 and 90; 0 if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) plunge_deg: Option<Field<Any>>,
+}
+
+/// A horizon: a surface through the whole domain, with a new unit above it, up to the next horizon or the domain's top.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HorizonFile {
+    /// Where it runs.
+    #[schemars(with = "HorizonSurface")]
+    pub(crate) surface: Field<Any>,
+    /// "erosive" (the default): its unit takes everything above the surface; "onlapping": only what the unit below and its children hold.
+    #[schemars(schema_with = "schema::relation")]
+    #[serde(default)]
+    pub(crate) relation: Option<Field<String>>,
+}
+
+/// Clinoforms: sheets that divide the unit of a horizon (`parent`) into clinothems.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ClinoformsFile {
+    /// Id of the horizon that bounds the unit above, or "domain"; if left out, the next horizon, or the domain's top.
+    pub(crate) top: Option<Field<String>>,
+    /// Direction of progradation in degrees, clockwise from north.
+    #[schemars(with = "Quantity")]
+    pub(crate) azimuth_deg: Field<Any>,
+    /// Semi-extents of the shoreline's ellipse, [along dip, along strike], in metres; [3000, 6000] if left out.
+    #[schemars(with = "Option<[Quantity; 2]>")]
+    pub(crate) shoreline: Option<Field<Any>>,
+    /// Plan distance from a clinoform's shoreline to its toe, in metres.
+    #[schemars(with = "Quantity")]
+    pub(crate) length: Field<Any>,
+    /// Distance from a clinoform to the next along the progradation, in metres.
+    #[schemars(with = "Quantity")]
+    pub(crate) spacing: Field<Any>,
+    /// Distance from the domain's landward corner to the first clinoform's shoreline, in metres.
+    #[schemars(with = "Quantity")]
+    pub(crate) first: Field<Any>,
+    /// Exponent of the dip profile; 2 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) exponent: Option<Field<Any>>,
+    /// How straight the profile meets its base, from 0 (tangent) to 1 (straight); if left out, 0 between level bounds and 0.3 otherwise.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) toe: Option<Field<Any>>,
+    /// How many clinoforms; as many as have their shoreline in the domain if left out.
+    #[schemars(range(min = 1, max = 500))]
+    pub(crate) sheets: Option<Field<u64>>,
+    /// Shape of the boundaries between belts: "smooth" (the default) or "zigzag".
+    #[schemars(schema_with = "schema::interfingering")]
+    #[serde(default)]
+    pub(crate) interfingering: Option<Field<String>>,
+    /// Facies belts of each clinothem, from landward to basinward; without them a clinothem is one volume.
+    #[schemars(with = "Option<Vec<BeltFile>>", length(min = 1))]
+    pub(crate) belts: Option<Field<Any>>,
+}
+
+/// A facies belt.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Belt")]
+pub(crate) struct BeltFile {
+    /// Its name: letters, digits, `-` and `_`; unique in the set.
+    #[schemars(regex(pattern = "^[A-Za-z0-9_-]+$"))]
+    pub(crate) name: Field<String>,
+    /// Its facies.
+    pub(crate) facies: Field<String>,
+    /// Width along dip in metres; every belt but the last has one.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) width: Option<Field<Any>>,
+    /// How far its basinward boundary swings, from peak to peak, in metres; 0 if left out. The last belt has no such boundary.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) interfingering: Option<Field<Any>>,
+}
+
+/// The table of a surface: one of `level`, `dipping`, `grid`, `points`.
+#[derive(Deserialize)]
+pub(crate) struct SurfaceFile {
+    pub(crate) level: Option<Field<Any>>,
+    pub(crate) dipping: Option<Field<Any>>,
+    pub(crate) grid: Option<Field<Any>>,
+    pub(crate) points: Option<Field<Any>>,
+    pub(crate) tolerance: Option<Field<f64>>,
+}
+
+/// A plane through a point.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Dipping")]
+pub(crate) struct DippingFile {
+    /// A point of the plane, [x, y, z].
+    #[schemars(with = "[Quantity; 3]")]
+    pub(crate) through: Field<Any>,
+    /// Angle below the horizontal in degrees, from 0 to 89.
+    #[schemars(with = "Quantity")]
+    pub(crate) dip_deg: Field<Any>,
+    /// Direction of the dip in degrees, clockwise from north.
+    #[schemars(with = "Quantity")]
+    pub(crate) azimuth_deg: Field<Any>,
+}
+
+/// Heights at the nodes of a regular grid, met exactly.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Grid")]
+pub(crate) struct GridFile {
+    /// [west, east]: x of the first and the last value of a row.
+    pub(crate) x: Field<[f64; 2]>,
+    /// [south, north]: y of the first and the last row.
+    pub(crate) y: Field<[f64; 2]>,
+    /// Rows from south to north, each with its heights from west to east; at least 2 × 2.
+    #[schemars(with = "Vec<Vec<f64>>", length(min = 2))]
+    pub(crate) heights: Field<Any>,
 }
 
 /// What every trajectory has.

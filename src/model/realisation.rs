@@ -115,6 +115,14 @@ struct Planned {
 impl Realisation {
     /// Draws and builds all instances of the selected features.
     pub fn new(model: &Model, selection: &Selection) -> Result<Self, RealisationError> {
+        if model.domain.base.is_some() || model.domain.top.is_some() {
+            return Err(RealisationError::Impossible {
+                volume: "background".to_owned(),
+                reason: "the domain's own `base` and `top` cannot be built by this version; \
+                         leave them out"
+                    .to_owned(),
+            });
+        }
         let mut list = Listing::new(model, selection)?;
         list.instances(None, "", "")?;
         let Listing {

@@ -6,13 +6,13 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
 use super::file::{
-    ChannelFile, EllipsoidFile, FeatureFile, LineFile, ModelFile, ParametricFile, PointsFile,
-    SineGeneratedFile, TrajectoryFile,
+    ChannelFile, ClinoformsFile, DippingFile, EllipsoidFile, FeatureFile, GridFile, HorizonFile,
+    LineFile, ModelFile, ParametricFile, PointsFile, SineGeneratedFile, TrajectoryFile,
 };
 use super::profile::Profile;
 use super::quantity::Quantity;
 use super::read::Field;
-use super::spec::Selector;
+use super::spec::{HorizonSurface, Selector};
 
 /// The JSON Schema (2020-12) of the model file.
 pub fn schema() -> Value {
@@ -195,6 +195,43 @@ impl JsonSchema for Selector {
     }
 }
 
+impl JsonSchema for HorizonSurface {
+    fn schema_name() -> Cow<'static, str> {
+        "Surface".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let level = generator.subschema_for::<Quantity>();
+        let dipping = generator.subschema_for::<DippingFile>();
+        let grid = generator.subschema_for::<GridFile>();
+        let table = |properties: Value, required: &[&str]| {
+            json!({
+                "type": "object", "properties": properties,
+                "required": required, "additionalProperties": false,
+            })
+        };
+        let points = json!({
+            "description": "Scattered points [x, y, z], at least three, not on one line in plan.",
+            "type": "array",
+            "items": { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
+            "minItems": 3,
+        });
+        let tolerance = json!({
+            "description": "How far the surface may pass above or below a point, in metres.",
+            "type": "number", "exclusiveMinimum": 0,
+        });
+        json_schema!({
+            "description": "A surface over the whole domain: level, dipping, a grid of heights, or scattered points.",
+            "anyOf": [
+                table(json!({ "level": { "description": "Its elevation in metres.", "anyOf": [level] } }), &["level"]),
+                table(json!({ "dipping": { "description": "A plane.", "anyOf": [dipping] } }), &["dipping"]),
+                table(json!({ "grid": { "description": "Heights at the nodes of a regular grid.", "anyOf": [grid] } }), &["grid"]),
+                table(json!({ "points": points, "tolerance": tolerance }), &["points", "tolerance"]),
+            ],
+        })
+    }
+}
+
 /// One table made of several structs and a fixed `kind`.
 fn merged(kind: &str, description: &str, parts: &[Schema]) -> Value {
     let mut properties = Map::new();
@@ -242,6 +279,8 @@ pub(crate) fn features(generator: &mut SchemaGenerator) -> Schema {
     let kinds = [
         ("channel", ChannelFile::json_schema(generator)),
         ("ellipsoid", EllipsoidFile::json_schema(generator)),
+        ("horizon", HorizonFile::json_schema(generator)),
+        ("clinoforms", ClinoformsFile::json_schema(generator)),
     ];
     json_schema!({ "type": "array", "items": { "oneOf": variants(&common, kinds) } })
 }
@@ -289,4 +328,12 @@ pub(crate) fn section_origin(_: &mut SchemaGenerator) -> Schema {
 
 pub(crate) fn parametrization(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": ["centripetal", "chord-length"] })
+}
+
+pub(crate) fn relation(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "enum": ["erosive", "onlapping"] })
+}
+
+pub(crate) fn interfingering(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "enum": ["smooth", "zigzag"] })
 }

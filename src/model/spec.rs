@@ -269,7 +269,7 @@ pub struct ClinoformsSpec {
     pub toe: Option<Quantity>,
     /// How many clinoforms; as many as have their shoreline in the domain if absent.
     pub sheets: Option<usize>,
-    /// Facies belts from landward to basinward; none, or at least two.
+    /// Facies belts from landward to basinward; without any, a clinothem is one volume.
     pub belts: Vec<Belt>,
     /// The shape of the boundaries between belts.
     pub interfingering: Interfingering,

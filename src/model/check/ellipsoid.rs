@@ -2,34 +2,13 @@
 
 use super::feature::Draft;
 use super::quantity::{ANY, AZIMUTH, Limits, PLUNGE, POSITIVE, quantity};
+use super::tuple::Tuple;
 use super::{Checker, Reported};
 use crate::model::file::EllipsoidFile;
 use crate::model::quantity::Quantity;
 use crate::model::read::{Any, Field};
 use crate::model::spec::{Domain, EllipsoidSpec};
 use crate::model::tree::NodeId;
-
-/// A list of three quantities.
-struct Three {
-    key: &'static str,
-    /// What its entries are called.
-    names: [&'static str; 3],
-    limits: Limits,
-    remedy: &'static str,
-}
-
-const SEMI_AXES: Three = Three {
-    key: "semi_axes",
-    names: ["first", "second", "third"],
-    limits: POSITIVE,
-    remedy: "write the three semi-axes (half of length, width and height) in [ ], in metres",
-};
-const CENTER: Three = Three {
-    key: "center",
-    names: ["x", "y", "z"],
-    limits: ANY,
-    remedy: "write the three coordinates in [ ], in metres",
-};
 
 impl Checker<'_> {
     pub(super) fn ellipsoid(
@@ -44,15 +23,15 @@ impl Checker<'_> {
                 file.semi_axes,
                 draft.node,
                 &draft.name,
-                SEMI_AXES.key,
+                "semi_axes",
                 "semi_axes = [3, 3, 1]",
             )
-            .and_then(|(node, Any)| self.three(node, draft, &SEMI_AXES));
+            .and_then(|(node, Any)| semi_axes_of(draft).read(&self.reader, node));
         let center = match file.center {
             None => Ok(None),
             Some(field) => field
                 .good()
-                .and_then(|(node, Any)| Some((node, self.three(node, draft, &CENTER)?)))
+                .and_then(|(node, Any)| Some((node, center_of(draft).read(&self.reader, node)?)))
                 .map(Some)
                 .ok_or(Reported),
         };
@@ -68,38 +47,6 @@ impl Checker<'_> {
             azimuth_deg: azimuth?,
             plunge_deg: plunge?,
         })
-    }
-
-    fn three(&self, node: NodeId, draft: &Draft, list: &Three) -> Option<[Quantity; 3]> {
-        let Three {
-            key, names, limits, ..
-        } = *list;
-        let &[first, second, third] = self.reader.tree.elements(node) else {
-            self.reader.wrong(
-                node,
-                format!(
-                    "expected a list of three for the {key} of {}, found {}",
-                    draft.name,
-                    self.reader.tree.describe(node)
-                ),
-                list.remedy,
-            );
-            return None;
-        };
-        let entry = |node: NodeId, name: &str| {
-            let what = format!("the {name} of the {key} of {}", draft.name);
-            quantity(&self.reader, node, &what, limits)
-        };
-        // All three are looked at before the first wrong one ends it.
-        let found = [
-            entry(first, names[0]),
-            entry(second, names[1]),
-            entry(third, names[2]),
-        ];
-        let [Some(first), Some(second), Some(third)] = found else {
-            return None;
-        };
-        Some([first, second, third])
     }
 
     /// An angle in degrees, 0 if it is left out.
@@ -145,5 +92,23 @@ impl Checker<'_> {
                 ),
             );
         }
+    }
+}
+
+fn semi_axes_of(draft: &Draft) -> Tuple<'static, 3> {
+    Tuple {
+        what: format!("the semi_axes of {}", draft.name),
+        names: ["first", "second", "third"],
+        limits: POSITIVE,
+        remedy: "write the three semi-axes (half of length, width and height) in [ ], in metres",
+    }
+}
+
+fn center_of(draft: &Draft) -> Tuple<'static, 3> {
+    Tuple {
+        what: format!("the center of {}", draft.name),
+        names: ["x", "y", "z"],
+        limits: ANY,
+        remedy: "write the three coordinates in [ ], in metres",
     }
 }

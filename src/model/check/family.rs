@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::Checker;
+use super::clinoforms::MOST_SHEETS;
 use super::feature::{DEEPEST_LEVEL, Draft, RESERVED};
 use super::rock::FaciesList;
 use crate::model::defects::Defect;
@@ -58,7 +59,11 @@ impl Checker<'_> {
             let Some(&other) = index.get(prefix) else {
                 continue;
             };
-            let count = drafts[other].count.map_or(1, |(_, count)| count);
+            let count = match drafts[other].kind {
+                // How many there are may depend on the draws.
+                Some("clinoforms") => MOST_SHEETS,
+                _ => drafts[other].count.map_or(1, |(_, count)| count),
+            };
             let clash = !number.starts_with(['0', '+'])
                 && number.parse::<u64>().is_ok_and(|n| n <= count && count > 1);
             if clash {
@@ -263,7 +268,20 @@ fn lineage(
     above
 }
 
-impl Family<'_> {
+impl<'f> Family<'f> {
+    pub(super) fn is_horizon(&self, feature: usize) -> bool {
+        self.drafts[feature].kind == Some("horizon")
+    }
+
+    /// The horizons that have an id, in order of the list.
+    pub(super) fn horizons(&self) -> Vec<(usize, &'f str)> {
+        let drafts = self.drafts.iter().enumerate();
+        drafts
+            .filter(|(i, _)| self.is_horizon(*i))
+            .filter_map(|(i, draft)| draft.id.as_ref().map(|(_, id)| (i, id.as_str())))
+            .collect()
+    }
+
     /// Whether all of feature `other` comes before all of the feature itself; `Equal` where that is not so simple, since
     /// the instances of one family follow each other parent by parent.
     pub(super) fn age_of(&self, other: usize) -> Ordering {

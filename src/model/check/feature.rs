@@ -29,6 +29,26 @@ pub(super) struct Draft {
     file: FeatureFile,
 }
 
+impl Draft {
+    /// The rules of what it takes that the file gives, with their places.
+    pub(super) fn taking_rules(&self) -> Vec<(&'static str, NodeId)> {
+        let removes = match &self.file.removes {
+            Some(Field::Good(at, Any)) => Some(("removes", *at)),
+            _ => None,
+        };
+        let preserve = match &self.file.preserve {
+            Some(Field::Good(at, _)) => Some(("preserve", *at)),
+            _ => None,
+        };
+        removes.into_iter().chain(preserve).collect()
+    }
+
+    /// Whether the file gives a parent that is no name at all.
+    pub(super) fn wrong_parent(&self) -> bool {
+        matches!(self.file.parent, Some(Field::Bad))
+    }
+}
+
 impl Checker<'_> {
     pub(super) fn features(
         &mut self,
@@ -220,6 +240,38 @@ impl Checker<'_> {
         }
     }
 
+    /// Nothing can lie in a set of clinoforms: its clinothems are not known before the draws.
+    fn check_parent_divides_not(&self, draft: &Draft, family: &Family<'_>) {
+        let Some((at, name)) = &draft.parent else {
+            return;
+        };
+        let parent = family.index.get(name).map(|&parent| &family.drafts[parent]);
+        // Horizons and clinoforms have said already what their parent may be.
+        let own = draft
+            .kind
+            .is_some_and(|kind| ["horizon", "clinoforms"].contains(&kind));
+        if let Some(parent) = parent
+            && parent.kind == Some("clinoforms")
+            && !own
+        {
+            let remedy = match &parent.parent {
+                Some((_, unit)) => {
+                    format!("name the horizon of its unit: parent = {}", quoted(unit))
+                }
+                None => "name the horizon of its unit".to_owned(),
+            };
+            self.reader.wrong(
+                *at,
+                format!(
+                    "{} has the parent {}, a set of clinoforms, which can have no children",
+                    draft.name,
+                    quoted(name)
+                ),
+                remedy,
+            );
+        }
+    }
+
     fn feature(
         &mut self,
         draft: &Draft,
@@ -229,8 +281,11 @@ impl Checker<'_> {
         let kind = match draft.kind {
             Some("channel") => self.channel(draft, domain).map(FeatureKind::Channel),
             Some("ellipsoid") => self.ellipsoid(draft, domain).map(FeatureKind::Ellipsoid),
+            Some("horizon") => self.horizon(draft, domain).map(FeatureKind::Horizon),
+            Some("clinoforms") => self.clinoforms(draft, family).map(FeatureKind::Clinoforms),
             _ => None,
         };
+        self.check_parent_divides_not(draft, family);
         // Without a kind nobody knows which keys are wrong.
         if draft.kind.is_some() {
             self.reader.close(draft.node, &draft.name);

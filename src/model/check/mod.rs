@@ -1,13 +1,19 @@
 //! From text to a checked [`Model`], with every defect found on the way.
 
+mod belts;
 mod channel;
+mod clinoforms;
 mod ellipsoid;
 mod family;
 mod feature;
+mod heights;
+mod horizon;
 mod quantity;
 mod rock;
 mod selector;
+mod surface;
 mod trajectory;
+mod tuple;
 
 use std::sync::Arc;
 

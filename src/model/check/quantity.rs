@@ -58,6 +58,25 @@ pub(crate) const PLUNGE: Limits = Limits {
     words: "must lie between -90 and 90 degrees, downwards from the horizontal",
 };
 
+pub(crate) const NOT_NEGATIVE: Limits = Limits {
+    low: 0.0,
+    high: f64::INFINITY,
+    open: false,
+    words: "must not be below 0",
+};
+pub(crate) const DIP: Limits = Limits {
+    low: 0.0,
+    high: 89.0,
+    open: false,
+    words: "must lie between 0 and 89 degrees, downwards along the azimuth",
+};
+pub(crate) const FRACTION: Limits = Limits {
+    low: 0.0,
+    high: 1.0,
+    open: false,
+    words: "must lie between 0 and 1",
+};
+
 impl Limits {
     fn too_low(&self, value: f64, reached: bool) -> bool {
         value < self.low || (self.open && reached && value == self.low)

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::Checker;
+use super::surface::Extent;
 use crate::model::file::{DomainFile, FaciesFile};
 use crate::model::read::{Any, Field};
-use crate::model::spec::{Domain, Facies, Feature, Property, Rgb};
+use crate::model::spec::{Domain, Facies, Feature, FeatureKind, Property, Rgb};
 use crate::model::suggest;
 use crate::model::tree::{Entry, NodeId, Value, quoted};
 
@@ -268,7 +269,7 @@ impl Checker<'_> {
     }
 
     pub(super) fn domain(
-        &self,
+        &mut self,
         field: Field<Any>,
         root: NodeId,
         facies: &FaciesList,
@@ -283,17 +284,23 @@ impl Checker<'_> {
         let x = self.range(file.x, table, "x", "x = [0, 1000]");
         let y = self.range(file.y, table, "y", "y = [0, 1000]");
         let z = self.range(file.z, table, "z", "z = [-60, 0]");
+        let extent = Extent { x, y, z };
+        let base = self.bounding_surface(file.base, "base", extent);
+        let top = self.bounding_surface(file.top, "top", extent);
+        if let (Ok(base), Ok(top)) = (&base, &top) {
+            self.check_order(base.as_ref(), top.as_ref());
+        }
         let example = "facies = \"mud\"";
         let named = self
             .reader
             .need(file.facies, table, "the domain", "facies", example);
         let facies = named.and_then(|(node, name)| self.known_facies(node, &name, facies));
         Some(Domain {
-            base: None,
-            top: None,
             x: x?,
             y: y?,
             z: z?,
+            base: base.ok()?.map(|(_, surface)| surface),
+            top: top.ok()?.map(|(_, surface)| surface),
             facies: facies?,
         })
     }
@@ -356,6 +363,9 @@ impl Checker<'_> {
         used[domain.facies] = true;
         for feature in features {
             used[feature.facies] = true;
+            if let FeatureKind::Clinoforms(set) = &feature.kind {
+                set.belts.iter().for_each(|belt| used[belt.facies] = true);
+            }
         }
         for (i, name) in facies.names.iter().enumerate() {
             if !used[i] {

@@ -34,12 +34,12 @@ fn volume(name: &str, parent: Option<usize>, from: Option<usize>) -> VolumeRules
     }
 }
 
-/// Rules of any kind: what each volume has is chosen among those before it by fractions.
+/// Rules of any kind: what each volume has is chosen among those before it.
 fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
-    let fraction = 0.0..1.0_f64;
+    let older = any::<prop::sample::Index>;
     let one = (
-        prop::option::weighted(0.4, fraction.clone()),
-        prop::option::weighted(0.5, fraction),
+        prop::option::weighted(0.4, older()),
+        prop::option::weighted(0.5, older()),
         prop::bool::weighted(0.15),
         prop::option::weighted(0.2, prop::collection::vec(0_usize..7, 0..5)),
         prop::option::weighted(0.2, prop::collection::vec(0_usize..7, 0..5)),
@@ -54,7 +54,7 @@ fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
         let mut volumes = vec![volume("0", None, None)];
         for (parent, from, preserve, removes, removed_by) in drawn {
             let at = volumes.len();
-            let older = |fraction: f64| (fraction * at as f64) as usize;
+            let older = |which: prop::sample::Index| which.index(at);
             volumes.push(VolumeRules {
                 preserve,
                 removes: selector(removes),

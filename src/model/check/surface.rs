@@ -1,0 +1,251 @@
+//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points.
+
+use super::quantity::{ANY, AZIMUTH, DIP, Limits, quantity};
+use super::tuple::Tuple;
+use super::{Checker, Reported};
+use crate::model::file::{DippingFile, SurfaceFile};
+use crate::model::quantity::Quantity;
+use crate::model::read::{Any, Field};
+use crate::model::spec::{Domain, HorizonSurface};
+use crate::model::tree::NodeId;
+
+/// The domain's limits, as far as they are known.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Extent {
+    pub(super) x: Option<[f64; 2]>,
+    pub(super) y: Option<[f64; 2]>,
+    pub(super) z: Option<[f64; 2]>,
+}
+
+impl From<Option<&Domain>> for Extent {
+    fn from(domain: Option<&Domain>) -> Self {
+        domain.map_or(Self::default(), |domain| Self {
+            x: Some(domain.x),
+            y: Some(domain.y),
+            z: Some(domain.z),
+        })
+    }
+}
+
+impl Checker<'_> {
+    /// A surface; `what` names it, as `the surface of feature "tarbert"`.
+    pub(super) fn surface(
+        &mut self,
+        node: NodeId,
+        what: &str,
+        extent: Extent,
+    ) -> Option<HorizonSurface> {
+        if self.reader.tree.number(node).is_some() {
+            let found = self.reader.tree.describe(node);
+            self.reader.wrong(
+                node,
+                format!("expected a table for {what}, found {found}"),
+                "for a level surface write { level = -20 }",
+            );
+            return None;
+        }
+        let file: SurfaceFile = self.reader.table(node)?;
+        self.reader.close(node, what);
+        let forms: Vec<&str> = [
+            ("level", file.level.is_some()),
+            ("dipping", file.dipping.is_some()),
+            ("grid", file.grid.is_some()),
+            ("points", file.points.is_some()),
+        ]
+        .iter()
+        .filter(|(_, given)| *given)
+        .map(|(name, _)| *name)
+        .collect();
+        if forms.len() > 1 || (forms.is_empty() && self.reader.unknown(node).is_empty()) {
+            let message = match forms.len() {
+                0 => format!("{what} has no form"),
+                n => format!("{what} has {n} forms: {}", forms.join(", ")),
+            };
+            self.reader.wrong(
+                node,
+                message,
+                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …]",
+            );
+        }
+        if let (Some(Field::Good(at, _)), None) = (&file.tolerance, &file.points) {
+            self.reader.wrong(
+                *at,
+                format!("{what} has a `tolerance` without `points`"),
+                "remove it: every other form is met exactly",
+            );
+        }
+        // All forms are looked at, so that one slip hides no other.
+        let level = self.form(file.level, |checker, at| checker.level_at(at, what, extent));
+        let dipping = self.form(file.dipping, |checker, at| checker.dipping(at, what));
+        let grid = self.form(file.grid, |checker, at| checker.grid(at, what, extent));
+        let tolerance = file.tolerance;
+        let points = self.form(file.points, |checker, at| {
+            checker.scattered(node, at, tolerance, what)
+        });
+        let surface = level.or(dipping).or(grid).or(points)?;
+        self.note_beyond(node, &surface, what, extent);
+        (forms.len() == 1).then_some(surface)
+    }
+
+    fn form(
+        &mut self,
+        field: Option<Field<Any>>,
+        read: impl FnOnce(&mut Self, NodeId) -> Option<HorizonSurface>,
+    ) -> Option<HorizonSurface> {
+        let (node, Any) = field?.good()?;
+        read(self, node)
+    }
+
+    /// The domain's own base or top, which may be left out.
+    pub(super) fn bounding_surface(
+        &mut self,
+        field: Option<Field<Any>>,
+        key: &str,
+        extent: Extent,
+    ) -> Result<Option<(NodeId, HorizonSurface)>, Reported> {
+        let Some(field) = field else { return Ok(None) };
+        let (node, Any) = field.good().ok_or(Reported)?;
+        self.surface(node, &format!("the {key} of the domain"), extent)
+            .map(|surface| Some((node, surface)))
+            .ok_or(Reported)
+    }
+
+    /// A level base of the domain must lie below a level top.
+    pub(super) fn check_order(
+        &self,
+        base: Option<&(NodeId, HorizonSurface)>,
+        top: Option<&(NodeId, HorizonSurface)>,
+    ) {
+        if let Some((_, HorizonSurface::Level(base))) = base
+            && let Some((node, HorizonSurface::Level(top))) = top
+            && base.support().1 >= top.support().0
+        {
+            let (base, top) = (base.support().1, top.support().0);
+            self.reader.wrong(
+                *node,
+                format!("the top of the domain at {top} is not above its base at {base}"),
+                "z points up: lower the base or raise the top",
+            );
+        }
+    }
+
+    fn level_at(&mut self, node: NodeId, what: &str, extent: Extent) -> Option<HorizonSurface> {
+        let what = format!("the level of {what}");
+        let level = quantity(&self.reader, node, &what, ANY)?;
+        let Some([base, top]) = extent.z else {
+            return Some(HorizonSurface::Level(level));
+        };
+        let (low, high) = level.support();
+        let (outside, key) = if low <= base {
+            (low, "min")
+        } else if high >= top {
+            (high, "max")
+        } else {
+            return Some(HorizonSurface::Level(level));
+        };
+        if outside.is_infinite() {
+            self.reader.wrong(
+                node,
+                format!("the distribution of {what} has no limit on one side; it must lie inside the domain's z range from {base} to {top}"),
+                format!("truncate it with {key} = …"),
+            );
+            return None;
+        }
+        let verb = match level {
+            Quantity::Constant(_) => "is",
+            Quantity::Random(_) => "can be",
+        };
+        self.reader.wrong(
+            node,
+            format!(
+                "{what} {verb} {outside}, not inside the domain's z range from {base} to {top}"
+            ),
+            format!("choose it above {base} and below {top}, or make the domain's z range larger"),
+        );
+        None
+    }
+
+    fn dipping(&mut self, node: NodeId, what: &str) -> Option<HorizonSurface> {
+        let file: DippingFile = self.reader.table(node)?;
+        self.reader.close(node, &format!("the `dipping` of {what}"));
+        let name = format!("the `dipping` of {what}");
+        let through = self
+            .reader
+            .need(
+                file.through,
+                node,
+                &name,
+                "through",
+                "through = [0, 0, -20]",
+            )
+            .and_then(|(at, Any)| {
+                let point = Tuple {
+                    what: format!("the point that {what} passes through"),
+                    names: ["x", "y", "z"],
+                    limits: ANY,
+                    remedy: "write the three coordinates in [ ], in metres",
+                };
+                point.read(&self.reader, at)
+            });
+        let angle = |field: Field<Any>, key: &str, example: &str, limits: Limits| {
+            let (at, Any) = self.reader.need(field, node, &name, key, example)?;
+            quantity(&self.reader, at, &format!("the {key} of {what}"), limits)
+        };
+        let dip = angle(file.dip_deg, "dip_deg", "dip_deg = 2", DIP);
+        let azimuth = angle(file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
+        Some(HorizonSurface::Dipping {
+            through: through?,
+            dip_deg: dip?,
+            azimuth_deg: azimuth?,
+        })
+    }
+
+    /// Says so if nothing of a surface lies in the domain.
+    fn note_beyond(&mut self, node: NodeId, surface: &HorizonSurface, what: &str, extent: Extent) {
+        let Extent {
+            x: Some(x),
+            y: Some(y),
+            z: Some([base, top]),
+        } = extent
+        else {
+            return;
+        };
+        let heights: Vec<f64> = match surface {
+            HorizonSurface::Level(_) => return,
+            HorizonSurface::Dipping {
+                through,
+                dip_deg,
+                azimuth_deg,
+            } => {
+                let [cx, cy, cz] = through.each_ref().map(Quantity::constant);
+                let (Some(cx), Some(cy), Some(cz), Some(dip), Some(azimuth)) =
+                    (cx, cy, cz, dip_deg.constant(), azimuth_deg.constant())
+                else {
+                    return;
+                };
+                let (sin, cos) = azimuth.to_radians().sin_cos();
+                let fall = dip.to_radians().tan();
+                let at = |x: f64, y: f64| cz - fall * ((x - cx) * sin + (y - cy) * cos);
+                vec![
+                    at(x[0], y[0]),
+                    at(x[1], y[0]),
+                    at(x[0], y[1]),
+                    at(x[1], y[1]),
+                ]
+            }
+            HorizonSurface::Grid { heights, .. } => heights.concat(),
+            HorizonSurface::Points { points, .. } => points.iter().map(|point| point[2]).collect(),
+        };
+        let place = if heights.iter().all(|&z| z >= top) {
+            "above"
+        } else if heights.iter().all(|&z| z <= base) {
+            "below"
+        } else {
+            return;
+        };
+        self.note(
+            node,
+            format!("{what} lies {place} the domain, whose z range is from {base} to {top}"),
+        );
+    }
+}
