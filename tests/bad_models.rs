@@ -247,7 +247,6 @@ const SHOREFACE_EDITS: &[Edit] = &[
     ("\"onlapping\"", "▸true", &["expected text, found `true`"]),
     // Clinoforms.
     ("kind = \"clinoforms\"", "kind = ▸\"clinoform\"", &["no kind of feature \"clinoform\"", "did you mean \"clinoforms\"?"]),
-    ("parent = \"upper\"", "", &["feature \"upper-set\" has no `parent`", "parent = \"lower\", a horizon"]),
     ("parent = \"upper\"", "parent = ▸\"scour\"", &["feature \"upper-set\" has the parent \"scour\", which is of the kind channel", "kind = \"horizon\""]),
     ("parent = \"upper\"", "parent = ▸\"uper\"", &["which is not a feature", "did you mean \"upper\"?"]),
     ("parent = \"upper\"", "parent = ▸\"lower-set\"", &["which is of the kind clinoforms"]),

@@ -352,7 +352,7 @@ impl<'a> Listing<'a> {
             Some(belt) => format!("{path}{}-{clinothem}/{belt}", feature.id),
         };
         let volume = |list: &mut Self, name: &str, from: usize, belt: usize, body: Body, drawn| {
-            let mut rules = list.rules_of(feature, name, Some(unit));
+            let mut rules = list.rules_of(feature, name, parent.map(|parent| parent.1));
             rules.from = Some(from);
             if let Some(belt) = spec.belts.get(belt) {
                 rules

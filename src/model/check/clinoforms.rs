@@ -85,21 +85,14 @@ impl Checker<'_> {
         })
     }
 
-    /// The parent, which must be a horizon.
-    fn unit(&self, draft: &Draft, family: &Family<'_>) -> Option<usize> {
+    /// The parent, which must be a horizon; the background if there is none.
+    fn unit(&self, draft: &Draft, family: &Family<'_>) -> Option<Option<usize>> {
         let Some((at, name)) = &draft.parent else {
-            if !draft.wrong_parent() {
-                let horizons = family.horizons();
-                let example = horizons.first().map_or("tarbert", |&(_, id)| id);
-                let example = format!("parent = {}, a horizon", quoted(example));
-                self.reader
-                    .missing(draft.node, &draft.name, "parent", &example);
-            }
-            return None;
+            return (!draft.wrong_parent()).then_some(None);
         };
         let &parent = family.index.get(name)?;
         if family.is_horizon(parent) {
-            return Some(parent);
+            return Some(Some(parent));
         }
         // An unknown kind is a defect of its own.
         if let Some(kind) = family.drafts[parent].kind {
@@ -122,12 +115,13 @@ impl Checker<'_> {
         field: Option<Field<String>>,
         draft: &Draft,
         family: &Family<'_>,
-        unit: Option<usize>,
+        unit: Option<Option<usize>>,
     ) -> Option<Bound> {
         let Some(field) = field else {
             let next = unit.and_then(|unit| {
                 let mut horizons = family.horizons().into_iter().map(|(i, _)| i);
-                horizons.find(|&i| i > unit && family.drafts[i].enabled)
+                let above = |i: usize| unit.is_none_or(|unit| i > unit);
+                horizons.find(|&i| above(i) && family.drafts[i].enabled)
             });
             return Some(next.map_or(Bound::Domain, Bound::Horizon));
         };
@@ -166,7 +160,7 @@ impl Checker<'_> {
             }
             return None;
         }
-        if let Some(unit) = unit
+        if let Some(Some(unit)) = unit
             && top <= unit
         {
             let own = &family.drafts[unit].name;
