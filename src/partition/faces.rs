@@ -57,6 +57,23 @@ const UNCLEAR: f64 = 1e-7;
 /// Points of a straight or long smooth piece in a loop's polygon.
 const POLYGON: usize = 6;
 
+/// A polygon with the box that holds it.
+struct Outline {
+    points: Vec<DVec2>,
+    low: DVec2,
+    high: DVec2,
+    /// Not negative.
+    area: f64,
+}
+
+impl Outline {
+    fn new(points: Vec<DVec2>, area: f64) -> Self {
+        let low = points.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
+        let high = points.iter().fold(-DVec2::INFINITY, |high, p| high.max(*p));
+        Self { points, low, high, area }
+    }
+}
+
 struct Traced {
     faces: Vec<Face>,
     faults: Faults,
@@ -121,47 +138,48 @@ impl Tracer<'_> {
         let (mut links, places) = self.links(halves);
         self.connect(&mut links, places, &mut faults);
         let loops = close(&links, &mut faults);
-        let mut outer: Vec<(Face, f64)> = Vec::new();
-        let mut holes: Vec<(Vec<usize>, Vec<DVec2>, f64)> = Vec::new();
+        let mut outer: Vec<(Face, Outline)> = Vec::new();
+        let mut holes: Vec<(Vec<usize>, Outline)> = Vec::new();
         for one in loops {
-            if one
-                .iter()
-                .any(|at| links[*at].labels != links[one[0]].labels)
-            {
-                faults.mixed_loops += 1;
-            }
+            let labels = links[one[0]].labels;
+            faults.mixed_loops += usize::from(one.iter().any(|at| links[*at].labels != labels));
             let polygon = self.polygon(&one, &links);
             let area = signed_area(&polygon);
+            let outline = Outline::new(polygon, area.abs());
             if area > 0.0 {
                 let face = Face {
                     sheet: self.sheet,
-                    labels: links[one[0]].labels,
+                    labels,
                     loops: vec![one.iter().map(|at| links[*at].half).collect()],
-                    polygons: vec![polygon],
+                    polygons: Vec::new(),
                 };
-                outer.push((face, area));
+                outer.push((face, outline));
             } else {
-                holes.push((one, polygon, -area));
+                holes.push((one, outline));
             }
         }
-        for (one, polygon, area) in holes {
+        for (one, outline) in holes {
             let labels = links[one[0]].labels;
             let home = outer
                 .iter_mut()
-                .filter(|(face, around)| *around > area && face.labels == labels)
-                .filter(|(face, _)| holds(&face.polygons[0], &polygon))
-                .min_by(|a, b| a.1.total_cmp(&b.1));
+                .filter(|(face, around)| around.area > outline.area && face.labels == labels)
+                .filter(|(_, around)| holds(around, &outline))
+                .min_by(|a, b| a.1.area.total_cmp(&b.1.area));
             match home {
                 Some((face, _)) => {
                     face.loops
                         .push(one.iter().map(|at| links[*at].half).collect());
-                    face.polygons.push(polygon);
+                    face.polygons.push(outline.points);
                 }
                 None => faults.homeless_holes += 1,
             }
         }
+        let whole = |(mut face, outline): (Face, Outline)| {
+            face.polygons.insert(0, outline.points);
+            face
+        };
         Traced {
-            faces: outer.into_iter().map(|face| face.0).collect(),
+            faces: outer.into_iter().map(whole).collect(),
             faults,
         }
     }
@@ -414,7 +432,22 @@ pub(super) fn encloses(polygon: &[DVec2], p: DVec2) -> bool {
 }
 
 /// Whether most of a polygon's points lie in another polygon: single ones may lie on it.
-fn holds(outer: &[DVec2], inner: &[DVec2]) -> bool {
-    let within = inner.iter().filter(|p| encloses(outer, **p)).count();
-    2 * within > inner.len()
+fn holds(outer: &Outline, inner: &Outline) -> bool {
+    let apart = outer.low.cmpgt(inner.high).any() || inner.low.cmpgt(outer.high).any();
+    if apart {
+        return false;
+    }
+    let count = inner.points.len();
+    let (mut within, mut beyond) = (0, 0);
+    for p in &inner.points {
+        if encloses(&outer.points, *p) {
+            within += 1;
+        } else {
+            beyond += 1;
+        }
+        if 2 * within > count || 2 * beyond >= count {
+            break;
+        }
+    }
+    2 * within > count
 }
