@@ -70,7 +70,12 @@ impl Outline {
     fn new(points: Vec<DVec2>, area: f64) -> Self {
         let low = points.iter().fold(DVec2::INFINITY, |low, p| low.min(*p));
         let high = points.iter().fold(-DVec2::INFINITY, |high, p| high.max(*p));
-        Self { points, low, high, area }
+        Self {
+            points,
+            low,
+            high,
+            area,
+        }
     }
 }
 

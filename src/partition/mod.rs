@@ -17,10 +17,13 @@
 //! each other, a count in [`Faults`] is not zero and the result must not be used.
 
 mod arcs;
+mod bernstein;
 mod bounds;
 mod check;
+mod cone;
 mod crossings;
 mod faces;
+mod facet;
 mod hermite;
 mod march;
 mod pair;

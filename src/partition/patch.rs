@@ -6,7 +6,9 @@
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
+use super::bernstein;
 use super::bounds::Bounds;
+use super::cone::cone;
 
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
@@ -36,13 +38,16 @@ pub(super) enum Along {
     V,
 }
 
+/// Homogeneous control points.
+type Net = SmallVec<[DVec4; 16]>;
+
 /// A Bézier patch over a rectangle of its surface's parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     rows: usize,
     columns: usize,
     rational: bool,
-    net: SmallVec<[DVec4; 16]>,
+    net: Net,
     pub(super) u: [f64; 2],
     pub(super) v: [f64; 2],
     pub(super) bounds: Bounds,
@@ -51,80 +56,17 @@ pub(super) struct Patch {
     slab: [f64; 2],
 }
 
-/// Values, first and second derivatives of the Bernstein polynomials of one degree on [0, 1].
-#[derive(Clone, Copy)]
-struct Basis {
-    value: [f64; ORDER],
-    first: [f64; ORDER],
-    second: [f64; ORDER],
-}
-
-impl Basis {
-    fn new(order: usize, s: f64) -> Self {
-        let mut all = Self {
-            value: [0.0; ORDER],
-            first: [0.0; ORDER],
-            second: [0.0; ORDER],
-        };
-        let r = 1.0 - s;
-        match order {
-            2 => {
-                all.value[0] = r;
-                all.value[1] = s;
-                all.first[0] = -1.0;
-                all.first[1] = 1.0;
-            }
-            4 => {
-                all.value[..4].copy_from_slice(&[
-                    r * r * r,
-                    3.0 * r * r * s,
-                    3.0 * r * s * s,
-                    s * s * s,
-                ]);
-                all.first[..4].copy_from_slice(&[
-                    -3.0 * r * r,
-                    3.0 * r * (r - 2.0 * s),
-                    3.0 * s * (2.0 * r - s),
-                    3.0 * s * s,
-                ]);
-                all.second[..4].copy_from_slice(&[
-                    6.0 * r,
-                    6.0 * (s - 2.0 * r),
-                    6.0 * (r - 2.0 * s),
-                    6.0 * s,
-                ]);
-            }
-            _ => all.raise(order, s),
+/// A call with the orders of a patch as constants, where they are usual ones.
+macro_rules! by_orders {
+    ($patch:ident.$function:ident($($argument:expr),*)) => {
+        match ($patch.rows, $patch.columns) {
+            (2, 2) => $patch.$function::<2, 2>($($argument),*),
+            (2, 4) => $patch.$function::<2, 4>($($argument),*),
+            (4, 2) => $patch.$function::<4, 2>($($argument),*),
+            (4, 4) => $patch.$function::<4, 4>($($argument),*),
+            _ => $patch.$function::<ORDER, ORDER>($($argument),*),
         }
-        all
-    }
-
-    /// By raising the degree; derivatives are differences of the polynomials one and two degrees lower.
-    fn raise(&mut self, order: usize, s: f64) {
-        let before = |of: &[f64; ORDER], i: usize, back: usize| {
-            if i >= back { of[i - back] } else { 0.0 }
-        };
-        self.value[0] = 1.0;
-        for degree in 1..order {
-            let lower = self.value;
-            if degree + 2 == order {
-                // `lower` has degree p − 2 here.
-                let factor = ((order - 1) * (order - 2)) as f64;
-                for i in 0..order {
-                    let sum = before(&lower, i, 2) - 2.0 * before(&lower, i, 1) + lower[i];
-                    self.second[i] = factor * sum;
-                }
-            }
-            if degree + 1 == order {
-                for i in 0..order {
-                    self.first[i] = (order - 1) as f64 * (before(&lower, i, 1) - lower[i]);
-                }
-            }
-            for i in (0..=degree).rev() {
-                self.value[i] = (1.0 - s) * lower[i] + s * before(&lower, i, 1);
-            }
-        }
-    }
+    };
 }
 
 impl Patch {
@@ -137,7 +79,7 @@ impl Patch {
         v: [f64; 2],
     ) -> Self {
         let rational = weights.iter().any(|w| *w != 1.0);
-        let net: SmallVec<[DVec4; 16]> = net
+        let net: Net = net
             .iter()
             .zip(weights)
             .map(|(p, w)| (*p * *w).extend(*w))
@@ -146,10 +88,10 @@ impl Patch {
             rows,
             columns: net.len() / rows,
             rational,
+            bounds: Bounds::of(points(&net, rational)),
             net,
             u,
             v,
-            bounds: Bounds::EMPTY,
             thin: DVec3::ZERO,
             slab: [0.0; 2],
         };
@@ -157,9 +99,8 @@ impl Patch {
         patch
     }
 
-    /// Finds what is kept about where it is.
+    /// Finds what it is thin across.
     fn measure(&mut self) {
-        self.bounds = Bounds::of(self.points());
         self.thin = self.thin_direction();
         self.slab = self.range_along(self.thin);
     }
@@ -174,13 +115,6 @@ impl Patch {
     /// Its thin direction, and its range along it.
     pub(super) fn slab(&self) -> (DVec3, [f64; 2]) {
         (self.thin, self.slab)
-    }
-
-    fn points(&self) -> impl Iterator<Item = DVec3> {
-        let rational = self.rational;
-        self.net
-            .iter()
-            .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
     }
 
     fn control(&self, i: usize, j: usize) -> DVec3 {
@@ -199,23 +133,53 @@ impl Patch {
 
     /// Point and derivatives in the surface's parameters.
     pub(super) fn jet(&self, u: f64, v: f64) -> Jet {
+        by_orders!(self.jet_of(u, v))
+    }
+
+    /// Point and first derivatives only.
+    pub(super) fn first_jet(&self, u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
+        by_orders!(self.first_jet_of(u, v))
+    }
+
+    /// The point only.
+    pub(super) fn point(&self, u: f64, v: f64) -> DVec3 {
+        by_orders!(self.point_of(u, v))
+    }
+
+    /// The orders: constants unless `R` and `C` are only the most.
+    const fn orders<const R: usize, const C: usize>(&self) -> [usize; 2] {
+        if R == ORDER {
+            [self.rows, self.columns]
+        } else {
+            [R, C]
+        }
+    }
+
+    /// Parameters as fractions of the patch's, and what one unit of the surface's parameters is in them.
+    fn local(&self, u: f64, v: f64) -> ([f64; 2], [f64; 2]) {
         let (du, dv) = (1.0 / (self.u[1] - self.u[0]), 1.0 / (self.v[1] - self.v[0]));
-        let in_u = Basis::new(self.rows, (u - self.u[0]) * du);
-        let in_v = Basis::new(self.columns, (v - self.v[0]) * dv);
+        ([(u - self.u[0]) * du, (v - self.v[0]) * dv], [du, dv])
+    }
+
+    fn jet_of<const R: usize, const C: usize>(&self, u: f64, v: f64) -> Jet {
+        let [rows, columns] = self.orders::<R, C>();
+        let ([s, t], [du, dv]) = self.local(u, v);
+        let in_u = bernstein::second::<R>(rows, s);
+        let in_v = bernstein::second::<C>(columns, t);
         let mut h = [DVec4::ZERO; 6];
-        for (i, row) in self.net.chunks_exact(self.columns).enumerate() {
+        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
             let mut own = [DVec4::ZERO; 3];
             for (j, point) in row.iter().enumerate() {
-                own[0] += in_v.value[j] * *point;
-                own[1] += in_v.first[j] * *point;
-                own[2] += in_v.second[j] * *point;
+                own[0] += in_v[0][j] * *point;
+                own[1] += in_v[1][j] * *point;
+                own[2] += in_v[2][j] * *point;
             }
-            h[0] += in_u.value[i] * own[0];
-            h[1] += in_u.first[i] * own[0];
-            h[2] += in_u.value[i] * own[1];
-            h[3] += in_u.second[i] * own[0];
-            h[4] += in_u.first[i] * own[1];
-            h[5] += in_u.value[i] * own[2];
+            h[0] += in_u[0][i] * own[0];
+            h[1] += in_u[1][i] * own[0];
+            h[2] += in_u[0][i] * own[1];
+            h[3] += in_u[2][i] * own[0];
+            h[4] += in_u[1][i] * own[1];
+            h[5] += in_u[0][i] * own[2];
         }
         let mut jet = Jet {
             p: h[0].xyz(),
@@ -243,57 +207,97 @@ impl Patch {
         jet
     }
 
-    /// Point and first derivatives only.
-    pub(super) fn first_jet(&self, u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
-        let (du, dv) = (1.0 / (self.u[1] - self.u[0]), 1.0 / (self.v[1] - self.v[0]));
-        let in_u = Basis::new(self.rows, (u - self.u[0]) * du);
-        let in_v = Basis::new(self.columns, (v - self.v[0]) * dv);
+    fn first_jet_of<const R: usize, const C: usize>(
+        &self,
+        u: f64,
+        v: f64,
+    ) -> (DVec3, DVec3, DVec3) {
+        let [rows, columns] = self.orders::<R, C>();
+        let ([s, t], [du, dv]) = self.local(u, v);
+        let in_u = bernstein::first::<R>(rows, s);
+        let in_v = bernstein::first::<C>(columns, t);
         let mut h = [DVec4::ZERO; 3];
-        for (i, row) in self.net.chunks_exact(self.columns).enumerate() {
+        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
             let mut own = [DVec4::ZERO; 2];
             for (j, point) in row.iter().enumerate() {
-                own[0] += in_v.value[j] * *point;
-                own[1] += in_v.first[j] * *point;
+                own[0] += in_v[0][j] * *point;
+                own[1] += in_v[1][j] * *point;
             }
-            h[0] += in_u.value[i] * own[0];
-            h[1] += in_u.first[i] * own[0];
-            h[2] += in_u.value[i] * own[1];
+            h[0] += in_u[0][i] * own[0];
+            h[1] += in_u[1][i] * own[0];
+            h[2] += in_u[0][i] * own[1];
         }
-        let (mut p, mut pu, mut pv) = (h[0].xyz(), h[1].xyz(), h[2].xyz());
-        if self.rational {
-            let w = 1.0 / h[0].w;
-            p *= w;
-            pu = (pu - h[1].w * p) * w;
-            pv = (pv - h[2].w * p) * w;
-        }
+        let (p, pu, pv) = places(h, self.rational);
         (p, pu * du, pv * dv)
     }
 
+    fn point_of<const R: usize, const C: usize>(&self, u: f64, v: f64) -> DVec3 {
+        let [rows, columns] = self.orders::<R, C>();
+        let ([s, t], _) = self.local(u, v);
+        let in_u = bernstein::values::<R>(rows, s);
+        let in_v = bernstein::values::<C>(columns, t);
+        let mut h = DVec4::ZERO;
+        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
+            let mut own = DVec4::ZERO;
+            for (j, point) in row.iter().enumerate() {
+                own += in_v[j] * *point;
+            }
+            h += in_u[i] * own;
+        }
+        if self.rational {
+            h.xyz() / h.w
+        } else {
+            h.xyz()
+        }
+    }
+
+    /// Number of control points in the direction in which the other parameter is fixed.
+    pub(super) fn count(&self, fixed: Along) -> usize {
+        match fixed {
+            Along::U => self.columns,
+            Along::V => self.rows,
+        }
+    }
+
     /// The control points of the curve at a fixed parameter, in the other direction, and of its derivative by the
-    /// fixed one, both homogeneous.
-    pub(super) fn slice(&self, fixed: Along, value: f64) -> Slice {
-        let (range, order, count) = match fixed {
-            Along::U => (self.u, self.rows, self.columns),
-            Along::V => (self.v, self.columns, self.rows),
+    /// fixed one, both homogeneous. `N` is their [number](Self::count), or [`ORDER`].
+    pub(super) fn slice<const N: usize>(&self, fixed: Along, value: f64) -> Slice<N> {
+        let order = match fixed {
+            Along::U => self.rows,
+            Along::V => self.columns,
         };
+        match order {
+            2 => self.slice_of::<2, N>(fixed, value),
+            4 => self.slice_of::<4, N>(fixed, value),
+            _ => self.slice_of::<ORDER, N>(fixed, value),
+        }
+    }
+
+    fn slice_of<const F: usize, const N: usize>(&self, fixed: Along, value: f64) -> Slice<N> {
+        let (range, order, steps) = match fixed {
+            Along::U => (self.u, self.rows, [self.columns, 1]),
+            Along::V => (self.v, self.columns, [1, self.columns]),
+        };
+        let order = if F == ORDER { order } else { F };
+        let count = if N == ORDER { self.count(fixed) } else { N };
         let unit = 1.0 / (range[1] - range[0]);
-        let basis = Basis::new(order, (value - range[0]) * unit);
+        let [values, slopes] = bernstein::first::<F>(order, (value - range[0]) * unit);
         let mut slice = Slice {
-            points: [DVec4::ZERO; ORDER],
-            across: [DVec4::ZERO; ORDER],
+            points: [DVec4::ZERO; N],
+            across: [DVec4::ZERO; N],
             count,
             rational: self.rational,
             range: if fixed == Along::U { self.v } else { self.u },
         };
         for k in 0..count {
+            let (mut point, mut across) = (DVec4::ZERO, DVec4::ZERO);
             for i in 0..order {
-                let h = match fixed {
-                    Along::U => self.net[i * self.columns + k],
-                    Along::V => self.net[k * self.columns + i],
-                };
-                slice.points[k] += basis.value[i] * h;
-                slice.across[k] += basis.first[i] * unit * h;
+                let h = self.net[i * steps[0] + k * steps[1]];
+                point += values[i] * h;
+                across += slopes[i] * h;
             }
+            slice.points[k] = point;
+            slice.across[k] = unit * across;
         }
         slice
     }
@@ -310,35 +314,56 @@ impl Patch {
         }
     }
 
-    /// The two halves (de Casteljau).
-    pub(super) fn halves(&self, along: Along) -> [Self; 2] {
-        let (mut low, mut high) = (self.clone(), self.clone());
+    /// Those of its two halves (de Casteljau) whose boxes are wanted.
+    pub(super) fn halves(
+        &self,
+        along: Along,
+        wanted: impl Fn(&Bounds) -> bool,
+    ) -> [Option<Self>; 2] {
+        let [u, v] = self.middle();
+        let (u, v) = match along {
+            Along::U => ([[self.u[0], u], [u, self.u[1]]], [self.v; 2]),
+            Along::V => ([self.u; 2], [[self.v[0], v], [v, self.v[1]]]),
+        };
+        let half = |net: Net, u: [f64; 2], v: [f64; 2]| {
+            let bounds = Bounds::of(points(&net, self.rational));
+            wanted(&bounds).then(|| {
+                let mut patch = Self {
+                    net,
+                    u,
+                    v,
+                    bounds,
+                    ..*self
+                };
+                patch.measure();
+                patch
+            })
+        };
+        let [low, high] = self.half_nets(along);
+        [half(low, u[0], v[0]), half(high, u[1], v[1])]
+    }
+
+    fn half_nets(&self, along: Along) -> [Net; 2] {
         let (lines, degree, line_step, step) = match along {
             Along::U => (self.columns, self.rows - 1, 1, self.columns),
             Along::V => (self.rows, self.columns - 1, self.columns, 1),
         };
+        let mut low = Net::from_slice(&self.net);
+        let mut high = Net::from_slice(&self.net);
         for line in 0..lines {
             let at = |k: usize| line * line_step + k * step;
+            let mut work = [DVec4::ZERO; ORDER];
+            for k in 0..=degree {
+                work[k] = self.net[at(k)];
+            }
             for round in 1..=degree {
                 for k in 0..=degree - round {
-                    high.net[at(k)] = 0.5 * (high.net[at(k)] + high.net[at(k + 1)]);
+                    work[k] = 0.5 * (work[k] + work[k + 1]);
                 }
-                low.net[at(round)] = high.net[at(0)];
+                low[at(round)] = work[0];
+                high[at(degree - round)] = work[degree - round];
             }
         }
-        let [u, v] = self.middle();
-        match along {
-            Along::U => {
-                low.u[1] = u;
-                high.u[0] = u;
-            }
-            Along::V => {
-                low.v[1] = v;
-                high.v[0] = v;
-            }
-        }
-        low.measure();
-        high.measure();
         [low, high]
     }
 
@@ -351,11 +376,13 @@ impl Patch {
 
     /// The range of its control points along a direction.
     fn range_along(&self, direction: DVec3) -> [f64; 2] {
-        self.points()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+        points(&self.net, self.rational).fold(
+            [f64::INFINITY, f64::NEG_INFINITY],
+            |[low, high], p| {
                 let d = p.dot(direction);
                 [low.min(d), high.max(d)]
-            })
+            },
+        )
     }
 
     /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
@@ -366,10 +393,14 @@ impl Patch {
     /// hodographs by positive functions, and their legs still bound the directions well enough here:
     /// cones only decide how deep to look.
     pub(super) fn normals(&self) -> Option<(DVec3, f64)> {
-        let legs_u = (0..self.rows - 1).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
-        let legs_v = (0..self.rows).flat_map(|i| (0..self.columns - 1).map(move |j| (i, j)));
-        let (a, alpha) = cone(legs_u.map(|(i, j)| self.control(i + 1, j) - self.control(i, j)))?;
-        let (b, beta) = cone(legs_v.map(|(i, j)| self.control(i, j + 1) - self.control(i, j)))?;
+        let points: SmallVec<[DVec3; 16]> = points(&self.net, self.rational).collect();
+        let leg = |(from, to): (&DVec3, &DVec3)| *to - *from;
+        let legs_u = points.iter().zip(&points[self.columns..]).map(leg);
+        let legs_v = points
+            .chunks_exact(self.columns)
+            .flat_map(|row| row.iter().zip(&row[1..]).map(leg));
+        let (a, alpha) = cone(legs_u)?;
+        let (b, beta) = cone(legs_v)?;
         let cross = a.cross(b);
         let gamma = cross.length();
         let lean = (alpha + beta + alpha * beta) / gamma;
@@ -377,54 +408,44 @@ impl Patch {
     }
 }
 
+fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {
+    net.iter()
+        .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
+}
+
+/// A point and two derivatives from homogeneous ones (PT97 A4.2).
+fn places(h: [DVec4; 3], rational: bool) -> (DVec3, DVec3, DVec3) {
+    let (p, a, b) = (h[0].xyz(), h[1].xyz(), h[2].xyz());
+    if !rational {
+        return (p, a, b);
+    }
+    let w = 1.0 / h[0].w;
+    let p = p * w;
+    (p, (a - h[1].w * p) * w, (b - h[2].w * p) * w)
+}
+
 /// A curve of a patch at a fixed parameter, with its derivative across.
-pub(super) struct Slice {
-    points: [DVec4; ORDER],
-    across: [DVec4; ORDER],
+pub(super) struct Slice<const N: usize> {
+    points: [DVec4; N],
+    across: [DVec4; N],
     count: usize,
     rational: bool,
     range: [f64; 2],
 }
 
-impl Slice {
+impl<const N: usize> Slice<N> {
     /// The point, the derivative along the curve, and the derivative by the fixed parameter.
     pub(super) fn jet(&self, x: f64) -> (DVec3, DVec3, DVec3) {
+        let count = if N == ORDER { self.count } else { N };
         let unit = 1.0 / (self.range[1] - self.range[0]);
-        let basis = Basis::new(self.count, (x - self.range[0]) * unit);
+        let [values, slopes] = bernstein::first::<N>(count, (x - self.range[0]) * unit);
         let mut h = [DVec4::ZERO; 3];
-        for k in 0..self.count {
-            h[0] += basis.value[k] * self.points[k];
-            h[1] += basis.first[k] * self.points[k];
-            h[2] += basis.value[k] * self.across[k];
+        for k in 0..count {
+            h[0] += values[k] * self.points[k];
+            h[1] += slopes[k] * self.points[k];
+            h[2] += values[k] * self.across[k];
         }
-        let (mut p, mut along, mut across) = (h[0].xyz(), h[1].xyz(), h[2].xyz());
-        if self.rational {
-            let w = 1.0 / h[0].w;
-            p *= w;
-            along = (along - h[1].w * p) * w;
-            across = (across - h[2].w * p) * w;
-        }
+        let (p, along, across) = places(h, self.rational);
         (p, along * unit, across)
     }
-}
-
-/// A cone that holds some vectors: unit axis and sine of the half-angle. Vanishing vectors say nothing.
-pub(super) fn cone(vectors: impl Iterator<Item = DVec3> + Clone) -> Option<(DVec3, f64)> {
-    let axis = vectors
-        .clone()
-        .fold(DVec3::ZERO, |sum, v| sum + v)
-        .try_normalize()?;
-    let mut sine: f64 = 0.0;
-    for v in vectors {
-        let length = v.length();
-        if length == 0.0 {
-            continue;
-        }
-        let along = v.dot(axis);
-        if along <= 0.0 {
-            return None;
-        }
-        sine = sine.max((v - along * axis).length() / length);
-    }
-    Some((axis, sine))
 }

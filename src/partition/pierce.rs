@@ -4,8 +4,10 @@ use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
+use super::cone::cone;
+use super::facet::Facet;
 use super::pair::Tolerances;
-use super::patch::{Patch, cone};
+use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 use super::solve::solve;
 
@@ -148,7 +150,7 @@ impl<'a> Piercing<'a> {
             return;
         }
         match node.kind {
-            NodeKind::Leaf(patch) => self.pieces(segment, self.sheet.patch(patch)),
+            NodeKind::Leaf(patch) => self.pieces(segment, &self.sheet.facet(patch)),
             NodeKind::Pair(a, b) => {
                 self.nodes(a, segment);
                 self.nodes(b, segment);
@@ -156,12 +158,13 @@ impl<'a> Piercing<'a> {
         }
     }
 
-    fn pieces(&mut self, segment: &Segment, patch: &Patch) {
+    fn pieces(&mut self, segment: &Segment, facet: &Facet<'_>) {
         self.halvings += 1;
         if self.halvings > MOST {
             self.undecided += 1;
             return;
         }
+        let patch = &facet.patch;
         if !segment.bounds.meets(&patch.bounds) || !segment.bounds.meets(&self.clip) {
             return;
         }
@@ -171,9 +174,8 @@ impl<'a> Piercing<'a> {
             return;
         }
         let tangents = segment.tangents();
-        let normals = patch.normals();
+        let (normals, lean) = (facet.normals, facet.lean());
         let bend = tangents.map_or(f64::INFINITY, |t| t.1);
-        let lean = normals.map_or(f64::INFINITY, |n| n.1);
         if let (Some((along, bend)), Some((normal, lean))) = (tangents, normals)
             && bend < STRAIGHT
             && lean < STRAIGHT
@@ -200,10 +202,10 @@ impl<'a> Piercing<'a> {
         };
         if halve_segment && size_s >= least || size_p < least {
             for half in segment.halves() {
-                self.pieces(&half, patch);
+                self.pieces(&half, facet);
             }
         } else {
-            for half in patch.halves(patch.longer()) {
+            for half in facet.halves(|bounds| bounds.meets(&segment.bounds), |_| true) {
                 self.pieces(segment, &half);
             }
         }

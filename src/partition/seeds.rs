@@ -3,9 +3,8 @@
 //! A pair of patches whose cones of normals have no direction in common crosses in at most one simple arc
 //! (two arcs, or a loop, would need parallel normals somewhere), so one attempt to land on it is enough.
 
-use std::borrow::Cow;
-
 use super::bounds::Bounds;
+use super::facet::Facet;
 use super::hermite::{Branch, Node};
 use super::pair::{Closing, Pair};
 use super::patch::Patch;
@@ -21,22 +20,6 @@ const STEEP: f64 = 0.1;
 const FLAT: f64 = 0.35;
 /// While patches are halved their sizes are kept within this factor.
 const RATIO: f64 = 4.0;
-
-struct Piece<'a> {
-    patch: Cow<'a, Patch>,
-    normals: Option<(glam::DVec3, f64)>,
-}
-
-impl<'a> Piece<'a> {
-    fn new(patch: Cow<'a, Patch>) -> Self {
-        let normals = patch.normals();
-        Self { patch, normals }
-    }
-
-    fn lean(&self) -> f64 {
-        self.normals.map_or(f64::INFINITY, |normals| normals.1)
-    }
-}
 
 /// Looks for places where two sheets cross, and hands each to `found`, which returns the branch through it.
 pub(super) struct Search<'a, F> {
@@ -75,9 +58,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
-                let (p, q) = (a.patch(p), b.patch(q));
-                if !apart(p, q, self.slack()) {
-                    self.patches(&Piece::new(Cow::Borrowed(p)), &Piece::new(Cow::Borrowed(q)));
+                if !apart(a.patch(p), b.patch(q), self.slack()) {
+                    self.patches(&a.facet(p), &b.facet(q));
                 }
             }
             (NodeKind::Pair(first, second), NodeKind::Leaf(_)) => {
@@ -100,7 +82,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    fn patches(&mut self, a: &Piece<'_>, b: &Piece<'_>) {
+    fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
         if self.halvings > MOST {
             return;
@@ -127,18 +109,13 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         } else {
             a.lean() > b.lean()
         };
-        let halved = if first { a } else { b };
-        for half in halved.patch.halves(halved.patch.longer()) {
-            let other = if first { &b.patch } else { &a.patch };
-            if !half.bounds.grown(self.slack()).meets(&other.bounds)
-                || !self.clip.meets(&half.bounds)
-            {
-                continue;
-            }
-            if apart(&half, other, self.slack()) {
-                continue;
-            }
-            let half = Piece::new(Cow::Owned(half));
+        let (halved, other) = if first { (a, b) } else { (b, a) };
+        let (slack, clip) = (self.slack(), self.clip);
+        let halves = halved.halves(
+            |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
+            |half| !apart(half, &other.patch, slack),
+        );
+        for half in halves {
             if first {
                 self.patches(&half, b);
             } else {
@@ -148,7 +125,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// Tries to land on the curve between two patches. Whether there is one, known or new.
-    fn land(&mut self, a: &Piece<'_>, b: &Piece<'_>) -> bool {
+    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let within = |q: &[f64; 4]| {
             (0..4).all(|i| {
@@ -200,7 +177,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
     /// tell little about where a place is.
-    fn passes_by(&self, a: &Piece<'_>, b: &Piece<'_>) -> bool {
+    fn passes_by(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
         let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
         let mut q = [u, v, s, t];
         let Some(node) = self.pair.node(q, None) else {

@@ -240,9 +240,10 @@ fn hull(patch: &Patch, [low, high]: [DVec2; 2], halvings: usize) -> Bounds {
     if halvings == 0 || (from.cmpge(low).all() && to.cmple(high).all()) {
         return patch.bounds;
     }
-    let quarters = patch.halves(Along::U).map(|half| half.halves(Along::V));
-    quarters.iter().flatten().fold(Bounds::EMPTY, |all, part| {
-        all.and(hull(part, [low, high], halvings - 1))
+    let halves = |patch: &Patch, along: Along| patch.halves(along, |_| true).into_iter().flatten();
+    let quarters = halves(patch, Along::U).flat_map(|half| halves(&half, Along::V));
+    quarters.fold(Bounds::EMPTY, |all, part| {
+        all.and(hull(&part, [low, high], halvings - 1))
     })
 }
 

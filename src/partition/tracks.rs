@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::check::Faults;
 use super::crossings::Crossings;
-use super::hermite::{self, End};
+use super::hermite::End;
 use super::pair::Tolerances;
 use super::region::Regions;
 
@@ -55,7 +55,7 @@ impl Geometry<'_> {
     pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
         match source {
             Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t).0,
-            Source::Crossing(at) => hermite::space(&self.crossings.curves[at].branch.value(t)),
+            Source::Crossing(at) => self.crossings.curves[at].branch.in_space(t)[0],
             Source::Pole(at) => self.regions.poles[at].point,
         }
     }
@@ -72,11 +72,8 @@ impl Geometry<'_> {
         match source {
             Source::Edge(edge) => self.regions.edges[edge].sides[side].at(sheets, t),
             Source::Crossing(at) => {
-                let [value, slope] = self.crossings.curves[at].branch.both(t);
-                (
-                    hermite::on_sheet(&value, side),
-                    hermite::on_sheet(&slope, side),
-                )
+                let [place, speed] = self.crossings.curves[at].branch.image(side, t);
+                (place, speed)
             }
             Source::Pole(at) => {
                 let pole = &self.regions.poles[at];
@@ -96,8 +93,8 @@ impl Geometry<'_> {
         match source {
             Source::Edge(edge) => self.edge_segment(edge, t).evaluate(t),
             Source::Crossing(at) => {
-                let [value, slope] = self.crossings.curves[at].branch.both(t);
-                (hermite::space(&value), hermite::space(&slope))
+                let [point, tangent] = self.crossings.curves[at].branch.in_space(t);
+                (point, tangent)
             }
             Source::Pole(at) => (self.regions.poles[at].point, DVec3::ZERO),
         }
