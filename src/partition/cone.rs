@@ -1,15 +1,13 @@
 //! Cones that hold directions.
 
 use glam::DVec3;
-use smallvec::SmallVec;
 
 /// A cone that holds some vectors: unit axis and sine of the half-angle. Vanishing vectors say nothing.
-pub(super) fn cone(vectors: impl Iterator<Item = DVec3>) -> Option<(DVec3, f64)> {
-    let vectors: SmallVec<[DVec3; 16]> = vectors.collect();
+pub(super) fn cone(vectors: &[DVec3]) -> Option<(DVec3, f64)> {
     let sum = vectors.iter().fold(DVec3::ZERO, |sum, v| sum + *v);
     let axis = sum.try_normalize()?;
     let mut square: f64 = 0.0;
-    for v in vectors {
+    for &v in vectors {
         let length_squared = v.length_squared();
         if length_squared == 0.0 {
             continue;

@@ -44,4 +44,28 @@ impl<'a> Facet<'a> {
                 patch: Cow::Owned(half),
             })
     }
+
+    /// Whether no normal of one facet is parallel to one of another, by their cones.
+    pub(super) fn is_askew(&self, other: &Facet<'_>) -> bool {
+        match (self.normals, other.normals) {
+            (Some((a, lean_a)), Some((b, lean_b))) => a.cross(b).length() > lean_a + lean_b,
+            _ => false,
+        }
+    }
+
+    /// Whether no normal of one facet is parallel to one of another, as far as their extremes tell along the
+    /// direction in which their axes lean from each other.
+    pub(super) fn leans_from(&self, other: &Facet<'_>) -> bool {
+        let (Some((a, _)), Some((b, _))) = (self.normals, other.normals) else {
+            return false;
+        };
+        let b = if a.dot(b) < 0.0 { -b } else { b };
+        let upright = a + b;
+        let along = a - b;
+        let slopes = |facet: &Facet<'_>| facet.patch.slopes(along, upright);
+        match (slopes(self), slopes(other)) {
+            (Some(own), Some(others)) => own[0] > others[1] || others[0] > own[1],
+            _ => false,
+        }
+    }
 }

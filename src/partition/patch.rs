@@ -367,6 +367,49 @@ impl Patch {
         [low, high]
     }
 
+    /// The range of the slopes of its normals: how far they lean along a direction, against upright. `None` if some
+    /// may be level, and for rational patches.
+    ///
+    /// Tangents along u are sums of legs along u, those along v of legs along v, with positive factors; so normals
+    /// are such sums of the products of legs.
+    pub(super) fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
+        if self.rational {
+            return None;
+        }
+        let [legs_u, legs_v] = self.legs();
+        let sign = legs_u[0].cross(legs_v[0]).dot(upright).signum();
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for a in legs_u {
+            let (lean, rise) = (along.cross(a) * sign, upright.cross(a) * sign);
+            for b in &legs_v {
+                let height = b.dot(rise);
+                if !(height > 0.0) {
+                    return None;
+                }
+                let slope = b.dot(lean) / height;
+                range = [range[0].min(slope), range[1].max(slope)];
+            }
+        }
+        Some(range)
+    }
+
+    /// Steps between neighbouring control points, along u and along v.
+    fn legs(&self) -> [SmallVec<[DVec3; 16]>; 2] {
+        let points: SmallVec<[DVec3; 16]> = points(&self.net, self.rational).collect();
+        let leg = |(from, to): (&DVec3, &DVec3)| *to - *from;
+        [
+            points
+                .iter()
+                .zip(&points[self.columns..])
+                .map(leg)
+                .collect(),
+            points
+                .chunks_exact(self.columns)
+                .flat_map(|row| row.iter().zip(&row[1..]).map(leg))
+                .collect(),
+        ]
+    }
+
     fn thin_direction(&self) -> DVec3 {
         let corner = |i: usize, j: usize| self.control(i * (self.rows - 1), j * (self.columns - 1));
         let along_u = (corner(1, 0) - corner(0, 0)) + (corner(1, 1) - corner(0, 1));
@@ -393,14 +436,9 @@ impl Patch {
     /// hodographs by positive functions, and their legs still bound the directions well enough here:
     /// cones only decide how deep to look.
     pub(super) fn normals(&self) -> Option<(DVec3, f64)> {
-        let points: SmallVec<[DVec3; 16]> = points(&self.net, self.rational).collect();
-        let leg = |(from, to): (&DVec3, &DVec3)| *to - *from;
-        let legs_u = points.iter().zip(&points[self.columns..]).map(leg);
-        let legs_v = points
-            .chunks_exact(self.columns)
-            .flat_map(|row| row.iter().zip(&row[1..]).map(leg));
-        let (a, alpha) = cone(legs_u)?;
-        let (b, beta) = cone(legs_v)?;
+        let [legs_u, legs_v] = self.legs();
+        let (a, alpha) = cone(&legs_u)?;
+        let (b, beta) = cone(&legs_v)?;
         let cross = a.cross(b);
         let gamma = cross.length();
         let lean = (alpha + beta + alpha * beta) / gamma;

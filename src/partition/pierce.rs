@@ -83,7 +83,9 @@ impl Segment {
     }
 
     fn tangents(&self) -> Option<(DVec3, f64)> {
-        cone(self.places().zip(self.places().skip(1)).map(|(a, b)| b - a))
+        let places = self.places().zip(self.places().skip(1));
+        let legs: SmallVec<[DVec3; 8]> = places.map(|(a, b)| b - a).collect();
+        cone(&legs)
     }
 
     fn range_along(&self, direction: DVec3) -> [f64; 2] {

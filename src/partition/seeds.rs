@@ -1,7 +1,8 @@
 //! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
 //!
-//! A pair of patches whose cones of normals have no direction in common crosses in at most one simple arc
-//! (two arcs, or a loop, would need parallel normals somewhere), so one attempt to land on it is enough.
+//! A pair of patches whose normals have no direction in common crosses in at most one simple arc (two arcs, or a
+//! loop, would need parallel normals somewhere). Once cones of normals tell that, one attempt to land on it is
+//! enough; where only closer bounds do, the patches are larger and an attempt that fails says nothing.
 
 use super::bounds::Bounds;
 use super::facet::Facet;
@@ -88,16 +89,19 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
-        if let (Some((axis_a, lean_a)), Some((axis_b, lean_b))) = (a.normals, b.normals) {
-            let flat = lean_a < FLAT && lean_b < FLAT;
-            if flat && axis_a.cross(axis_b).length() > lean_a + lean_b {
-                self.land(a, b);
-                return;
-            }
+        let flat = a.lean() < FLAT && b.lean() < FLAT;
+        if flat && a.is_askew(b) {
+            self.land(a, b, |_| true);
+            return;
+        }
+        // Of large patches only success tells: there is one arc at most, but it may be far from where it is looked for.
+        let clip = self.clip;
+        if flat && a.leans_from(b) && self.land(a, b, |node| clip.holds(node.point())) {
+            return;
         }
         let least = LEAST * self.pair.tolerances.scale;
         if size_a < least && size_b < least {
-            if !self.land(a, b) && !self.passes_by(a, b) {
+            if !self.land(a, b, |_| true) && !self.passes_by(a, b) {
                 self.undecided += 1;
             }
             return;
@@ -110,7 +114,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             a.lean() > b.lean()
         };
         let (halved, other) = if first { (a, b) } else { (b, a) };
-        let (slack, clip) = (self.slack(), self.clip);
+        let slack = self.slack();
         let halves = halved.halves(
             |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
             |half| !apart(half, &other.patch, slack),
@@ -124,8 +128,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    /// Tries to land on the curve between two patches. Whether there is one, known or new.
-    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+    /// Tries to land on the curve between two patches. Whether there is one, known, or new and wanted.
+    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>, wanted: impl Fn(&Node) -> bool) -> bool {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let within = |q: &[f64; 4]| {
             (0..4).all(|i| {
@@ -166,6 +170,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         };
         if self.is_traced(&node) {
             return true;
+        }
+        if !wanted(&node) {
+            return false;
         }
         match (self.found)(node) {
             Some(branch) => self.branches.push(branch),
