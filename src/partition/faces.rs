@@ -445,7 +445,8 @@ fn holds(outer: &Outline, inner: &Outline) -> bool {
     let count = inner.points.len();
     let (mut within, mut beyond) = (0, 0);
     for p in &inner.points {
-        if encloses(&outer.points, *p) {
+        let in_box = p.cmpge(outer.low).all() && p.cmple(outer.high).all();
+        if in_box && encloses(&outer.points, *p) {
             within += 1;
         } else {
             beyond += 1;

@@ -13,6 +13,9 @@ use super::cone::cone;
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
 
+/// Most legs along v of patches whose normals' slopes are asked for: of 4 × 4 control points there are 12.
+const LANES: usize = 12;
+
 /// A point of a surface with its first and second derivatives.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Jet {
@@ -377,20 +380,32 @@ impl Patch {
             return None;
         }
         let [legs_u, legs_v] = self.legs();
+        if legs_v.len() > LANES {
+            return None;
+        }
+        // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
+        let lanes: [[f64; LANES]; 3] = std::array::from_fn(|axis| {
+            std::array::from_fn(|k| legs_v[k.min(legs_v.len() - 1)][axis])
+        });
+        let used = legs_v.len().next_multiple_of(4).min(LANES);
         let sign = legs_u[0].cross(legs_v[0]).dot(upright).signum();
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut least = [f64::INFINITY; LANES];
+        let mut range = [[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]];
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
         for a in legs_u {
             let (lean, rise) = (along.cross(a) * sign, upright.cross(a) * sign);
-            for b in &legs_v {
-                let height = b.dot(rise);
-                if !(height > 0.0) {
-                    return None;
-                }
-                let slope = b.dot(lean) / height;
-                range = [range[0].min(slope), range[1].max(slope)];
+            for k in 0..used {
+                let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
+                let height = x * rise.x + y * rise.y + z * rise.z;
+                let slope = (x * lean.x + y * lean.y + z * lean.z) / height;
+                least[k] = smaller(height, least[k]);
+                range[0][k] = smaller(slope, range[0][k]);
+                range[1][k] = -smaller(-slope, -range[1][k]);
             }
         }
-        Some(range)
+        let all = |lanes: &[f64; LANES]| lanes.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = range[1].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (all(&least) > 0.0).then(|| [all(&range[0]), high])
     }
 
     /// Steps between neighbouring control points, along u and along v.
