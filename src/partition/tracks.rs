@@ -102,31 +102,34 @@ impl Geometry<'_> {
 
     /// The ends of the smooth pieces of a part of a track.
     pub(super) fn stops(&self, source: Source, t: [f64; 2]) -> Vec<f64> {
-        let breaks = self.breaks(source).into_iter();
-        let inner = breaks.filter(|x| *x > t[0] && *x < t[1]);
-        std::iter::once(t[0]).chain(inner).chain([t[1]]).collect()
-    }
-
-    /// Parameters strictly between which a track is one smooth piece.
-    fn breaks(&self, source: Source) -> Vec<f64> {
+        let mut stops = vec![t[0]];
         match source {
-            Source::Edge(edge) => self.regions.edges[edge]
-                .segments
-                .iter()
-                .skip(1)
-                .map(|segment| segment.t[0])
-                .collect(),
+            Source::Edge(edge) => {
+                let starts = self.regions.edges[edge].segments.iter().skip(1);
+                let breaks = starts.map(|segment| segment.t[0]);
+                stops.extend(breaks.filter(|x| *x > t[0] && *x < t[1]));
+            }
             Source::Crossing(at) => {
-                let lengths = &self.crossings.curves[at].branch.lengths;
-                lengths[1..lengths.len() - 1].to_vec()
+                stops.extend_from_slice(between(&self.crossings.curves[at].branch.lengths, t));
             }
             Source::Pole(at) => {
                 let pole = &self.regions.poles[at];
-                let knots = &self.regions.sheets[pole.sheet].knots[1 - pole.border.axis()];
-                knots[1..knots.len() - 1].to_vec()
+                let running = 1 - pole.border.axis();
+                stops
+                    .extend_from_slice(between(&self.regions.sheets[pole.sheet].knots[running], t));
             }
         }
+        stops.push(t[1]);
+        stops
     }
+}
+
+/// Those of some sorted values, without the first and the last one, that lie strictly within a range.
+fn between(values: &[f64], range: [f64; 2]) -> &[f64] {
+    let inner = &values[1..values.len() - 1];
+    let from = inner.partition_point(|x| *x <= range[0]);
+    let to = inner.partition_point(|x| *x < range[1]);
+    &inner[from..to.max(from)]
 }
 
 impl Tracks {
