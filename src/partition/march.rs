@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::bounds::Bounds;
 use super::crossings::MATCH;
-use super::hermite::{self, Branch, End, Node};
+use super::hermite::{self, Branch, End, Node, PARTS};
 use super::pair::{Closing, Pair};
 use super::sheet::Border;
 
@@ -57,6 +57,29 @@ struct Piece {
     deviation: f64,
 }
 
+impl Piece {
+    /// Its end as the place to go on from, `before` being its start.
+    fn place(&self, before: &Node) -> Place {
+        let rate = |i: usize| (self.node.second[i] - before.second[i]) / self.length;
+        let third = if self.length > 0.0 {
+            std::array::from_fn(rate)
+        } else {
+            [0.0; PARTS]
+        };
+        Place {
+            node: self.node,
+            third,
+        }
+    }
+}
+
+/// Where a curve is followed on from.
+struct Place {
+    node: Node,
+    /// About the third derivative by arc length, from the piece before: it makes guesses better.
+    third: [f64; PARTS],
+}
+
 enum Step {
     To(Piece, Option<(usize, Border)>),
     Closes(Piece),
@@ -99,24 +122,27 @@ impl March<'_> {
             deviation: 0.0,
             end: End::Tangent,
         };
-        let mut here = start;
+        let mut here = Place {
+            node: start,
+            third: [0.0; PARTS],
+        };
         let mut step = FIRST_STEP * self.pair.tolerances.scale;
         for count in 0..MOST_STEPS {
             match self.advance(&here, &origin, &mut step, count) {
                 Step::Stuck => return run,
                 Step::Closes(piece) => {
-                    self.take(&mut run, &here, &piece);
+                    self.take(&mut run, &here.node, &piece);
                     run.end = End::Closed;
                     return run;
                 }
                 Step::To(piece, border) => {
-                    if let Some((piece, stop)) = self.stopped(&here, &piece) {
-                        self.take(&mut run, &here, &piece);
+                    if let Some((piece, stop)) = self.stopped(&here.node, &piece) {
+                        self.take(&mut run, &here.node, &piece);
                         run.end = End::AtBorder(stop.side, stop.border);
                         return run;
                     }
                     if piece.length > self.pair.tolerances.same * 0.01 {
-                        self.take(&mut run, &here, &piece);
+                        self.take(&mut run, &here.node, &piece);
                     }
                     let wanted = self.clip.holds(piece.node.point());
                     if let Some((side, border)) = border {
@@ -132,7 +158,7 @@ impl March<'_> {
                         run.end = End::Outside;
                         return run;
                     }
-                    here = piece.node;
+                    here = piece.place(&here.node);
                 }
             }
         }
@@ -148,8 +174,9 @@ impl March<'_> {
     }
 
     /// One accepted step; `step` is the length to try, and then the next one's.
-    fn advance(&self, here: &Node, origin: &Node, step: &mut f64, count: usize) -> Step {
+    fn advance(&self, here: &Place, origin: &Node, step: &mut f64, count: usize) -> Step {
         let tolerances = &self.pair.tolerances;
+        let (here, third) = (&here.node, &here.third);
         for _ in 0..40 {
             if *step < LEAST_STEP * tolerances.scale {
                 return Step::Stuck;
@@ -157,7 +184,8 @@ impl March<'_> {
             let h = *step;
             let mut q = here.parameters();
             for (i, value) in q.iter_mut().enumerate() {
-                *value += h * here.first[3 + i] + 0.5 * h * h * here.second[3 + i];
+                let bend = here.second[3 + i] + h / 3.0 * third[3 + i];
+                *value += h * (here.first[3 + i] + 0.5 * h * bend);
             }
             let (tangent, point) = (here.tangent(), here.point());
             let target = point + h * tangent + 0.5 * h * h * here.curvature();
