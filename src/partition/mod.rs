@@ -19,6 +19,8 @@
 mod arcs;
 mod bernstein;
 mod bounds;
+mod boxes;
+mod builder;
 mod check;
 mod cone;
 mod crossings;
@@ -29,8 +31,10 @@ mod march;
 mod pair;
 mod patch;
 mod pierce;
+mod polygon;
 mod quadrature;
 mod region;
+mod samples;
 mod seeds;
 mod sheet;
 mod solids;
@@ -184,7 +188,7 @@ pub fn partition(
         tolerances,
     };
     let solids = parts.solids(&mut faults);
-    let topology = topology::Topology::new(&parts, solids);
+    let topology = Topology::new(&parts, solids);
     clock.lap("solids");
     let inside = |crossing: &&crossings::Crossing| {
         crossing

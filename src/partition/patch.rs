@@ -1,38 +1,23 @@
-//! Bézier patches: evaluation, halving, and bounds of where a patch is and where its normals point.
+//! Bézier patches: halving, and bounds of where a patch is and where its normals point.
 //!
 //! Degrees up to 7 each way, rational or not. The net is homogeneous, (w x, w y, w z, w), u-major. A
 //! patch may be evaluated outside of its own parameters: its polynomial goes on.
 
+mod evaluate;
+
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
-use super::bernstein;
 use super::bounds::Bounds;
 use super::cone::cone;
+
+pub(super) use evaluate::{Jet, Slice};
 
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
 
 /// Most legs along v of patches whose normals' slopes are asked for: of 4 × 4 control points there are 12.
 const LANES: usize = 12;
-
-/// A point of a surface with its first and second derivatives.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Jet {
-    pub(super) p: DVec3,
-    pub(super) u: DVec3,
-    pub(super) v: DVec3,
-    pub(super) uu: DVec3,
-    pub(super) uv: DVec3,
-    pub(super) vv: DVec3,
-}
-
-impl Jet {
-    /// The normal `S_u × S_v`, not of unit length.
-    pub(super) fn normal(&self) -> DVec3 {
-        self.u.cross(self.v)
-    }
-}
 
 /// One of the two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,19 +42,6 @@ pub(super) struct Patch {
     /// The direction across which it is likely to be thin, and its range along it.
     thin: DVec3,
     slab: [f64; 2],
-}
-
-/// A call with the orders of a patch as constants, where they are usual ones.
-macro_rules! by_orders {
-    ($patch:ident.$function:ident($($argument:expr),*)) => {
-        match ($patch.rows, $patch.columns) {
-            (2, 2) => $patch.$function::<2, 2>($($argument),*),
-            (2, 4) => $patch.$function::<2, 4>($($argument),*),
-            (4, 2) => $patch.$function::<4, 2>($($argument),*),
-            (4, 4) => $patch.$function::<4, 4>($($argument),*),
-            _ => $patch.$function::<ORDER, ORDER>($($argument),*),
-        }
-    };
 }
 
 impl Patch {
@@ -134,177 +106,6 @@ impl Patch {
         [0.5 * (self.u[0] + self.u[1]), 0.5 * (self.v[0] + self.v[1])]
     }
 
-    /// Point and derivatives in the surface's parameters.
-    pub(super) fn jet(&self, u: f64, v: f64) -> Jet {
-        by_orders!(self.jet_of(u, v))
-    }
-
-    /// Point and first derivatives only.
-    pub(super) fn first_jet(&self, u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
-        by_orders!(self.first_jet_of(u, v))
-    }
-
-    /// The point only.
-    pub(super) fn point(&self, u: f64, v: f64) -> DVec3 {
-        by_orders!(self.point_of(u, v))
-    }
-
-    /// The orders: constants unless `R` and `C` are only the most.
-    const fn orders<const R: usize, const C: usize>(&self) -> [usize; 2] {
-        if R == ORDER {
-            [self.rows, self.columns]
-        } else {
-            [R, C]
-        }
-    }
-
-    /// Parameters as fractions of the patch's, and what one unit of the surface's parameters is in them.
-    fn local(&self, u: f64, v: f64) -> ([f64; 2], [f64; 2]) {
-        let (du, dv) = (1.0 / (self.u[1] - self.u[0]), 1.0 / (self.v[1] - self.v[0]));
-        ([(u - self.u[0]) * du, (v - self.v[0]) * dv], [du, dv])
-    }
-
-    fn jet_of<const R: usize, const C: usize>(&self, u: f64, v: f64) -> Jet {
-        let [rows, columns] = self.orders::<R, C>();
-        let ([s, t], [du, dv]) = self.local(u, v);
-        let in_u = bernstein::second::<R>(rows, s);
-        let in_v = bernstein::second::<C>(columns, t);
-        let mut h = [DVec4::ZERO; 6];
-        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
-            let mut own = [DVec4::ZERO; 3];
-            for (j, point) in row.iter().enumerate() {
-                own[0] += in_v[0][j] * *point;
-                own[1] += in_v[1][j] * *point;
-                own[2] += in_v[2][j] * *point;
-            }
-            h[0] += in_u[0][i] * own[0];
-            h[1] += in_u[1][i] * own[0];
-            h[2] += in_u[0][i] * own[1];
-            h[3] += in_u[2][i] * own[0];
-            h[4] += in_u[1][i] * own[1];
-            h[5] += in_u[0][i] * own[2];
-        }
-        let mut jet = Jet {
-            p: h[0].xyz(),
-            u: h[1].xyz(),
-            v: h[2].xyz(),
-            uu: h[3].xyz(),
-            uv: h[4].xyz(),
-            vv: h[5].xyz(),
-        };
-        if self.rational {
-            // The quotient rule (PT97 A4.4).
-            let w = 1.0 / h[0].w;
-            jet.p *= w;
-            jet.u = (jet.u - h[1].w * jet.p) * w;
-            jet.v = (jet.v - h[2].w * jet.p) * w;
-            jet.uu = (jet.uu - 2.0 * h[1].w * jet.u - h[3].w * jet.p) * w;
-            jet.uv = (jet.uv - h[1].w * jet.v - h[2].w * jet.u - h[4].w * jet.p) * w;
-            jet.vv = (jet.vv - 2.0 * h[2].w * jet.v - h[5].w * jet.p) * w;
-        }
-        jet.u *= du;
-        jet.v *= dv;
-        jet.uu *= du * du;
-        jet.uv *= du * dv;
-        jet.vv *= dv * dv;
-        jet
-    }
-
-    fn first_jet_of<const R: usize, const C: usize>(
-        &self,
-        u: f64,
-        v: f64,
-    ) -> (DVec3, DVec3, DVec3) {
-        let [rows, columns] = self.orders::<R, C>();
-        let ([s, t], [du, dv]) = self.local(u, v);
-        let in_u = bernstein::first::<R>(rows, s);
-        let in_v = bernstein::first::<C>(columns, t);
-        let mut h = [DVec4::ZERO; 3];
-        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
-            let mut own = [DVec4::ZERO; 2];
-            for (j, point) in row.iter().enumerate() {
-                own[0] += in_v[0][j] * *point;
-                own[1] += in_v[1][j] * *point;
-            }
-            h[0] += in_u[0][i] * own[0];
-            h[1] += in_u[1][i] * own[0];
-            h[2] += in_u[0][i] * own[1];
-        }
-        let (p, pu, pv) = places(h, self.rational);
-        (p, pu * du, pv * dv)
-    }
-
-    fn point_of<const R: usize, const C: usize>(&self, u: f64, v: f64) -> DVec3 {
-        let [rows, columns] = self.orders::<R, C>();
-        let ([s, t], _) = self.local(u, v);
-        let in_u = bernstein::values::<R>(rows, s);
-        let in_v = bernstein::values::<C>(columns, t);
-        let mut h = DVec4::ZERO;
-        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
-            let mut own = DVec4::ZERO;
-            for (j, point) in row.iter().enumerate() {
-                own += in_v[j] * *point;
-            }
-            h += in_u[i] * own;
-        }
-        if self.rational {
-            h.xyz() / h.w
-        } else {
-            h.xyz()
-        }
-    }
-
-    /// Number of control points in the direction in which the other parameter is fixed.
-    pub(super) fn count(&self, fixed: Along) -> usize {
-        match fixed {
-            Along::U => self.columns,
-            Along::V => self.rows,
-        }
-    }
-
-    /// The control points of the curve at a fixed parameter, in the other direction, and of its derivative by the
-    /// fixed one, both homogeneous. `N` is their [number](Self::count), or [`ORDER`].
-    pub(super) fn slice<const N: usize>(&self, fixed: Along, value: f64) -> Slice<N> {
-        let order = match fixed {
-            Along::U => self.rows,
-            Along::V => self.columns,
-        };
-        match order {
-            2 => self.slice_of::<2, N>(fixed, value),
-            4 => self.slice_of::<4, N>(fixed, value),
-            _ => self.slice_of::<ORDER, N>(fixed, value),
-        }
-    }
-
-    fn slice_of<const F: usize, const N: usize>(&self, fixed: Along, value: f64) -> Slice<N> {
-        let (range, order, steps) = match fixed {
-            Along::U => (self.u, self.rows, [self.columns, 1]),
-            Along::V => (self.v, self.columns, [1, self.columns]),
-        };
-        let order = if F == ORDER { order } else { F };
-        let count = if N == ORDER { self.count(fixed) } else { N };
-        let unit = 1.0 / (range[1] - range[0]);
-        let [values, slopes] = bernstein::first::<F>(order, (value - range[0]) * unit);
-        let mut slice = Slice {
-            points: [DVec4::ZERO; N],
-            across: [DVec4::ZERO; N],
-            count,
-            rational: self.rational,
-            range: if fixed == Along::U { self.v } else { self.u },
-        };
-        for k in 0..count {
-            let (mut point, mut across) = (DVec4::ZERO, DVec4::ZERO);
-            for i in 0..order {
-                let h = self.net[i * steps[0] + k * steps[1]];
-                point += values[i] * h;
-                across += slopes[i] * h;
-            }
-            slice.points[k] = point;
-            slice.across[k] = unit * across;
-        }
-        slice
-    }
-
     /// The direction in which its net is longer.
     pub(super) fn longer(&self) -> Along {
         let corner = |i: usize, j: usize| self.control(i * (self.rows - 1), j * (self.columns - 1));
@@ -356,8 +157,8 @@ impl Patch {
         for line in 0..lines {
             let at = |k: usize| line * line_step + k * step;
             let mut work = [DVec4::ZERO; ORDER];
-            for k in 0..=degree {
-                work[k] = self.net[at(k)];
+            for (k, h) in work.iter_mut().take(degree + 1).enumerate() {
+                *h = self.net[at(k)];
             }
             for round in 1..=degree {
                 for k in 0..=degree - round {
@@ -464,41 +265,4 @@ impl Patch {
 fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {
     net.iter()
         .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
-}
-
-/// A point and two derivatives from homogeneous ones (PT97 A4.2).
-fn places(h: [DVec4; 3], rational: bool) -> (DVec3, DVec3, DVec3) {
-    let (p, a, b) = (h[0].xyz(), h[1].xyz(), h[2].xyz());
-    if !rational {
-        return (p, a, b);
-    }
-    let w = 1.0 / h[0].w;
-    let p = p * w;
-    (p, (a - h[1].w * p) * w, (b - h[2].w * p) * w)
-}
-
-/// A curve of a patch at a fixed parameter, with its derivative across.
-pub(super) struct Slice<const N: usize> {
-    points: [DVec4; N],
-    across: [DVec4; N],
-    count: usize,
-    rational: bool,
-    range: [f64; 2],
-}
-
-impl<const N: usize> Slice<N> {
-    /// The point, the derivative along the curve, and the derivative by the fixed parameter.
-    pub(super) fn jet(&self, x: f64) -> (DVec3, DVec3, DVec3) {
-        let count = if N == ORDER { self.count } else { N };
-        let unit = 1.0 / (self.range[1] - self.range[0]);
-        let [values, slopes] = bernstein::first::<N>(count, (x - self.range[0]) * unit);
-        let mut h = [DVec4::ZERO; 3];
-        for k in 0..count {
-            h[0] += values[k] * self.points[k];
-            h[1] += slopes[k] * self.points[k];
-            h[2] += values[k] * self.across[k];
-        }
-        let (p, along, across) = places(h, self.rational);
-        (p, along * unit, across)
-    }
 }
