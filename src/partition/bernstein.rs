@@ -77,3 +77,40 @@ fn differences<const N: usize>(lower: &[f64; N], order: usize) -> [f64; N] {
     }
     slopes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `C(degree, i) sⁱ (1 − s)ᵈ⁻ⁱ`.
+    fn closed(order: usize, i: usize, s: f64) -> f64 {
+        let degree = order - 1;
+        let binomial = (0..i).fold(1.0, |c, k| c * (degree - k) as f64 / (k + 1) as f64);
+        let power = |base: f64, times: usize| (0..times).fold(1.0, |product, _| product * base);
+        binomial * power(s, i) * power(1.0 - s, degree - i)
+    }
+
+    fn check<const N: usize>(order: usize) {
+        let (s, h) = (0.3, 1e-4);
+        let [values, slopes, bends] = second::<N>(order, s);
+        assert_eq!([values, slopes], first::<N>(order, s));
+        assert_eq!(values, super::values::<N>(order, s));
+        for i in 0..order {
+            let [before, at, after] = [s - h, s, s + h].map(|s| closed(order, i, s));
+            // Rounding, and differences of step h: errors of order h², and of 1e-16 over h and h².
+            assert!((values[i] - at).abs() < 1e-15);
+            assert!((slopes[i] - (after - before) / (2.0 * h)).abs() < 1e-5);
+            assert!((bends[i] - (after - 2.0 * at + before) / (h * h)).abs() < 1e-4);
+        }
+        assert!(values[order..].iter().all(|value| *value == 0.0));
+    }
+
+    #[test]
+    fn all_degrees_agree_with_binomials_and_their_differences_whether_constant_or_not() {
+        check::<2>(2);
+        check::<4>(4);
+        for order in 2..=ORDER {
+            check::<ORDER>(order);
+        }
+    }
+}

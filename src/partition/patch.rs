@@ -266,3 +266,40 @@ fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone 
     net.iter()
         .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_of_sampled_normals_lie_within_the_bounds_from_legs() {
+        // A bowl that is twisted, and rougher along u.
+        let net: Vec<DVec3> = (0..16)
+            .map(|k| (f64::from(k / 4) - 1.5, f64::from(k % 4) - 1.5))
+            .map(|(x, y)| DVec3::new(x, y, 0.2 * x * x + 0.05 * y * y + 0.03 * x * y))
+            .collect();
+        let patch = Patch::new(4, &net, &[1.0; 16], [0.0, 1.0], [0.0, 1.0]);
+        for along in [DVec3::X, DVec3::Y, DVec3::new(-1.0, 0.4, 0.1)] {
+            let [low, high] = patch.slopes(along, DVec3::Z).unwrap();
+            let mut sampled = [f64::INFINITY, f64::NEG_INFINITY];
+            for k in 0..=100 {
+                let (_, u, v) = patch.first_jet(f64::from(k / 10) / 10.0, f64::from(k % 11) / 10.0);
+                let normal = u.cross(v);
+                let slope = normal.dot(along) / normal.z;
+                assert!(low <= slope && slope <= high);
+                sampled = [sampled[0].min(slope), sampled[1].max(slope)];
+            }
+            // Bounds that say nothing would hold them too.
+            assert!(high - low < 2.0 * (sampled[1] - sampled[0]));
+        }
+    }
+
+    #[test]
+    fn a_patch_that_stands_upright_somewhere_has_no_slopes() {
+        let net =
+            [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
+        let patch = Patch::new(2, &net, &[1.0; 4], [0.0, 1.0], [0.0, 1.0]);
+        assert!(patch.slopes(DVec3::X, DVec3::Z).is_none());
+    }
+}
