@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::kernel::{
     Cancel, Curve, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Pcurve, Solids, Surface,
@@ -121,14 +122,6 @@ fn partition(
     options: &Options,
     cancel: &Cancel,
 ) -> Result<Partition, Trouble> {
-    let mut regions = vec![Region::Block {
-        low: plan.low,
-        high: plan.high,
-    }];
-    regions.extend(plan.lids.iter().map(|level| Region::Above(*level)));
-    for (index, shell) in plan.shells.iter().enumerate() {
-        regions.push(region(plan, owners, index, shell)?);
-    }
     let holders = Holders::new(&plan.bodies, plan.rules.len(), plan.lids.len());
     let labels = |inside: &[bool]| holders.owner(&plan.rules, inside);
     let volumes = volumes(plan);
@@ -145,13 +138,39 @@ fn partition(
         stop: &|| cancel.is_cancelled(),
         meet: &meet,
     };
+    let run = || {
+        Ok(partition::partition(
+            regions(plan, owners)?,
+            &labels,
+            &settings,
+        )?)
+    };
     if options.threads == 0 {
-        return Ok(partition::partition(regions, &labels, &settings)?);
+        return run();
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()?;
-    Ok(pool.install(|| partition::partition(regions, &labels, &settings))?)
+    pool.install(run)
+}
+
+/// The block, the lids and the shells.
+fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region>, Trouble> {
+    let mut regions = vec![Region::Block {
+        low: plan.low,
+        high: plan.high,
+    }];
+    regions.extend(plan.lids.iter().map(|level| Region::Above(*level)));
+    let shells: Vec<_> = plan
+        .shells
+        .par_iter()
+        .enumerate()
+        .map(|(index, shell)| region(plan, owners, index, shell))
+        .collect();
+    for shell in shells {
+        regions.push(shell?);
+    }
+    Ok(regions)
 }
 
 /// By region: the volumes that ask for it; none for the block, and for lids.
