@@ -207,6 +207,17 @@ impl Rules {
             })
     }
 
+    /// The same where `inside` costs more than the rules: it is asked only of bodies that would take the place.
+    pub fn owner_asking(&self, mut inside: impl FnMut(usize) -> bool) -> usize {
+        (1..self.volumes.len()).fold(BACKGROUND, |holder, body| {
+            if self.verdict(body, holder) == Verdict::Takes && inside(body) {
+                body
+            } else {
+                holder
+            }
+        })
+    }
+
     /// The same, with every body that had a say and what it did.
     pub fn history(&self, mut inside: impl FnMut(usize) -> bool) -> Vec<(usize, Verdict)> {
         let mut holder = BACKGROUND;
