@@ -256,3 +256,25 @@ fn the_coastal_model_is_proven_in_full_and_its_plain_stays_below_its_parasequenc
     });
     assert!(between.count() > 0);
 }
+
+#[test]
+fn sheets_flatter_than_can_be_told_apart_and_sets_without_their_top_are_refused() {
+    let refused = |model: &Model, without: &[&str]| {
+        let selection = Selection {
+            without: without.iter().map(ToString::to_string).collect(),
+            max_level: None,
+        };
+        Realisation::new(model, &selection).unwrap_err().to_string()
+    };
+    let set = SET.replace("AZIMUTH", "90");
+    let flat = refused(&from_text(&(set.clone() + "exponent = 3\ntoe = 0")), &[]);
+    assert!(flat.contains("give a toe above 0"), "{flat}");
+    // Left out, the toe is not tangent then.
+    let steeper = built(from_text(&(set + "exponent = 3")));
+    assert!(steeper.assembly.failed.is_empty());
+    let topless = refused(&of_file("coastal", 7), &["flooding"]);
+    assert!(
+        topless.contains("\"flooding\", which does not take part"),
+        "{topless}"
+    );
+}

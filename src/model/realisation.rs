@@ -335,6 +335,18 @@ impl<'a> Listing<'a> {
             Bound::Horizon(unit) => self.horizons.get(&unit).map(|drawn| drawn.0.clone()),
             Bound::Domain => Some(self.domain_bound(true)?),
         };
+        if let Bound::Horizon(unit) = spec.top
+            && !self.selection.keeps_feature(&self.model.features[unit])
+        {
+            let id = &self.model.features[unit].id;
+            return Err(RealisationError::Impossible {
+                volume: feature.id.clone(),
+                reason: format!(
+                    "its top is the horizon \"{id}\", which does not take part: keep that, or leave {} out, too",
+                    feature.id
+                ),
+            });
+        }
         let (Some(base), Some(top)) = (base, top) else {
             return Err(RealisationError::Impossible {
                 volume: feature.id.clone(),

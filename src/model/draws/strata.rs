@@ -14,7 +14,9 @@ use crate::model::spec::{Belt, ClinoformsSpec, Domain, HorizonSurface, Interfing
 
 /// Most sheets of a set: a spacing that is far too small is found out before the memory is full.
 const MOST_SHEETS: usize = 500;
-/// `toe` where the bounds are not level and none is given: a sheet that meets a bent base tangentially would cross it
+/// The largest exponent with which sheets may meet their base tangentially.
+const FLATTEST: f64 = 2.0;
+/// `toe` where the bounds are not level, or the exponent is larger than that, and none is given: a sheet that meets a bent base tangentially would cross it
 /// again and again.
 const TOE: f64 = 0.3;
 /// Distance between the nodes of a facies boundary along strike (m).
@@ -120,18 +122,26 @@ pub(in crate::model) fn clinoforms(
             dip: draws.quantity(&spec.shoreline[0], "shoreline.dip")?,
             strike: draws.quantity(&spec.shoreline[1], "shoreline.strike")?,
         };
+        let exponent = draws.quantity(&spec.exponent, "exponent")?;
         let level = base.level().is_some() && top.level().is_some();
         let toe = match &spec.toe {
             Some(toe) => draws.quantity(toe, "toe")?,
-            None if level => 0.0,
+            None if level && exponent <= FLATTEST => 0.0,
             None => TOE,
         };
+        if toe == 0.0 && exponent > FLATTEST {
+            let message = format!(
+                "with an exponent of {exponent} and a toe of 0 the sheets lie closer to their base than can be told \
+                 apart: give a toe above 0, such as {TOE}, or an exponent of at most {FLATTEST}"
+            );
+            return Err(("toe too flat", message));
+        }
         let set = Set {
             spec,
             frame: ClinoformFrame::new(low, high, azimuth.to_radians()).map_err(wrong)?,
             unit: ClinoformUnit::new(base.clone(), top.clone(), low, high).map_err(wrong)?,
             shoreline,
-            exponent: draws.quantity(&spec.exponent, "exponent")?,
+            exponent,
             toe,
         };
         set.draw(draws)
