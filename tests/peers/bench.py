@@ -25,9 +25,12 @@ import report
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
-MODELS = ["channel-belt", "parasequence", "coastal"]
+# The last is the parasequence again, small, with other seeds.
+MODELS = ["channel-belt", "parasequence", "coastal", "parasequence-seeds"]
 # Distance between clinoforms of the parasequence (m), which a size of it divides.
 SPACING = (105, 390)
+# What it is divided by with other seeds.
+SPARSE = 0.75
 # Script, and what its result is: a compound per body, or cells that tell nothing of their body.
 PEERS = {
     "gmsh": ("gmsh_fragment.py", "cells"),
@@ -78,14 +81,17 @@ def call(command, limit):
 
 
 def sizes(model, args):
-    """What a model is made with, by its size: the number of channels, or what the distance of clinoforms is divided by."""
+    """What a model is made with, by its size: the number of channels, or what the distance of clinoforms is divided by; or
+    by its seed."""
     if model == "channel-belt":
         return {count: [f"feature.channel.count={count}"] for count in sorted(args.counts)}
     if model == "coastal":
         return {1: []}
     low, high = SPACING
-    spacing = lambda by: f"spacing={{ uniform = [{low / by}, {high / by}] }}"
-    return {by: [f"feature.{one}.{spacing(by)}" for one in ("lower", "upper")] for by in sorted(args.denser)}
+    spacing = lambda by: [f"feature.{one}.spacing={{ uniform = [{low / by}, {high / by}] }}" for one in ("lower", "upper")]
+    if model == "parasequence-seeds":
+        return {seed: [f"seed={seed}", *spacing(SPARSE)] for seed in sorted(args.seeds)}
+    return {by: spacing(by) for by in sorted(args.denser)}
 
 
 class Bench:
@@ -93,7 +99,8 @@ class Bench:
 
     def __init__(self, args, folder, examples, model, settings):
         self.args, self.folder, self.examples, self.settings = args, folder, examples, settings
-        self.model = ROOT / f"models/{model}/{model}.toml"
+        name = model.removesuffix("-seeds")
+        self.model = ROOT / f"models/{name}/{name}.toml"
         self.bodies = folder / "bodies"
         told = subprocess.run(
             [examples / "bench_bodies", self.model, self.bodies, *settings], check=True, capture_output=True, text=True
@@ -164,7 +171,7 @@ def race(model, args, examples, entries):
             bench = Bench(args, Path(folder), examples, model, settings)
             able = WITH_SHEETS if bench.given["sheets"] else PROGRAMS
             for program in (one for one in able if one in args.only and (model, size, one) not in entries):
-                hopeless = size > over.get(program, size)
+                hopeless = size > over.get(program, size) and model != "parasequence-seeds"
                 entry = {"skipped": True} if hopeless else bench.entry(program)
                 if "over" in entry:
                     over[program] = size
@@ -186,6 +193,7 @@ def main():
     parser.add_argument(
         "--denser", type=numbers(float), default=[0.4, 1, 3, 10], help="how many times as many clinoforms parasequences have"
     )
+    parser.add_argument("--seeds", type=numbers(int), default=list(range(1, 21)), help="of the small parasequences (default 1 to 20)")
     parser.add_argument("--runs", type=int, default=5, help="runs of each, fewer where they are slow (default 5); 0: none, tables of what is kept")
     parser.add_argument("--only", type=words, default=PROGRAMS, help=", ".join(PROGRAMS))
     parser.add_argument("--limit", type=float, default=600, help="seconds that a run may take (default 600)")

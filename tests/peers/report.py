@@ -27,6 +27,8 @@ reaches out of the block, or beyond what it ends at.""",
     "coastal": """The bodies and surfaces are those of [models/coastal](../models/coastal): a block of 366 × 671 × 52 m, crossing channels
 in its lower part, and above them the two sets of clinoforms of the parasequence. Channels are closed bodies, the rest is open
 sheets.""",
+    "parasequence-seeds": """The parasequence with other seeds, and clinoforms somewhat farther apart. By program: seconds, and, where not all
+volumes are right, how many are missing or wrong. At the end, in how many of the models a program got all volumes right.""",
 }
 
 
@@ -67,6 +69,14 @@ def losses(measured, reference):
     # What has no place at all.
     wrong += [name for name, found in measured["volumes"].items() if name not in reference and found > LITRE]
     return missing, wrong
+
+
+def off(measured, reference):
+    """Which volumes are missing or wrong, and by how much, in one line if there are any."""
+    missing, wrong = losses(measured, reference)
+    miss = lambda name: measured["volumes"].get(name, 0.0) - reference.get(name, 0.0)
+    words = [f"{name} ({miss(name):+.3g} m³)" for name in missing + wrong]
+    return [", ".join(words[:12]) + (f" and {len(words) - 12} more" if len(words) > 12 else "")] if words else []
 
 
 def row(program, entry, ours, reference):
@@ -117,12 +127,7 @@ def of_size(entries, model, size):
         if "failed" in measured:
             details.append(f"{NAMES[program]} was not measured: `{measured['failed']}`")
         if reference and "volumes" in measured:
-            missing, wrong = losses(measured, reference)
-            miss = lambda name: measured["volumes"].get(name, 0.0) - reference.get(name, 0.0)
-            off = [f"{name} ({miss(name):+.3g} m³)" for name in missing + wrong]
-            if off:
-                more = f" and {len(off) - 12} more" if len(off) > 12 else ""
-                details.append(f"{NAMES[program]}, missing or wrong: {', '.join(off[:12])}{more}")
+            details += [f"{NAMES[program]}, missing or wrong: {one}" for one in off(measured, reference)]
     lines = [f"### {given(entries, model, size)}", "", table(HEAD, rows), ""]
     if "edges" in ours:
         lines += [
@@ -134,6 +139,41 @@ def of_size(entries, model, size):
         ]
     lines += [f"- {detail}" for detail in details] + ([""] if details else [])
     return lines
+
+
+def verdict(entry, reference):
+    """Seconds, and what went wrong, in a few words; and whether nothing did."""
+    if entry is None:
+        return "", False
+    if "over" in entry:
+        return f"> {entry['over']:g}", False
+    if "failed" in entry or "volumes" not in entry.get("measured", {}):
+        return "failed", False
+    missing, wrong = losses(entry["measured"], reference or {})
+    counts = [f"**{len(names)} {word}**" for names, word in ((missing, "missing"), (wrong, "wrong")) if names]
+    return ", ".join([seconds(entry["seconds"]), *counts]), not counts
+
+
+def of_seeds(entries, seeds):
+    """A line per seed, all programs side by side."""
+    model = "parasequence-seeds"
+    programs = [one for one in NAMES if any((model, seed, one) in entries for seed in seeds)]
+    right, rows, details = dict.fromkeys(programs, 0), [], []
+    for seed in seeds:
+        ours = entries.get((model, seed, "partition"), {})
+        reference = ours.get("volumes")
+        cells = [str(seed), given(entries, model, seed).split()[0], str(ours.get("solids", ""))]
+        for program in programs:
+            entry = entries.get((model, seed, program))
+            words, well = verdict(entry, reference)
+            cells.append(words)
+            right[program] += well
+            if reference and entry and "volumes" in entry.get("measured", {}):
+                details += [f"seed {seed}, {NAMES[program]}: {one}" for one in off(entry["measured"], reference)]
+        rows.append(cells)
+    rows.append(["all right", "", "", *(f"{right[one]} of {len(seeds)}" for one in programs)])
+    head = ["seed", "sheets", "our solids", *(NAMES[one] for one in programs)]
+    return [table(head, rows), "", *(f"- {detail}" for detail in details), ""]
 
 
 def exponent(points):
@@ -225,6 +265,9 @@ def text(entries, args, command):
     for model in models:
         sizes = sorted({key[1] for key in entries if key[0] == model})
         lines += [f"## {model}", "", ABOUT[model], ""]
+        if model == "parasequence-seeds":
+            lines += of_seeds(entries, sizes)
+            continue
         for size in sizes:
             lines += of_size(entries, model, size)
         lines += growth(entries, model, sizes)
