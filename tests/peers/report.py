@@ -28,7 +28,8 @@ reaches out of the block, or beyond what it ends at.""",
 in its lower part, and above them the two sets of clinoforms of the parasequence. Channels are closed bodies, the rest is open
 sheets.""",
     "parasequence-seeds": """The parasequence with other seeds, and clinoforms somewhat farther apart. By program: seconds, and, where not all
-volumes are right, how many are missing or wrong. At the end, in how many of the models a program got all volumes right.""",
+volumes are right, how many are missing or wrong. At the end, in how many of the models a program got all volumes right.
+A wedge at a tangent toe that goes to the volume below its base is valid, and the sum of all solids does not miss it.""",
 }
 
 
