@@ -1,34 +1,30 @@
-//! Times one engine on a channel belt, from control nets to proven solids in memory: a line of JSON per run.
+//! Times one engine on a model, from control nets to proven solids in memory: a line of JSON.
 //!
-//! `cargo run --release --example bench_engine MODEL COUNT partition|occt [RUNS [BREP]]`
+//! `cargo run --release --example bench_engine MODEL partition|occt BREP [SETTING…]`
 //!
 //! The clock runs over the plan, the point evaluator, the assembly and the fast proof. Both engines run in this
 //! process with all of the machine's processors: the general fuse in no child process, so that its memory counts.
-//! After the clock, the solids are written as BREP if a file is named.
+//! After the clock, the solids are written as BREP.
 
 #[cfg(feature = "occt")]
-mod belt;
+mod bench;
 
 #[cfg(feature = "occt")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     use std::io::Write;
 
     let mut args = std::env::args().skip(1);
-    let (Some(model), Some(count), Some(engine)) = (args.next(), args.next(), args.next()) else {
-        return Err("a model file, the number of channels, and partition or occt".into());
+    let (Some(model), Some(engine), Some(brep)) = (args.next(), args.next(), args.next()) else {
+        return Err("a model file, partition or occt, a file for the solids, and settings".into());
     };
     let engine = match engine.as_str() {
         "partition" => clinothem::assembly::Engine::Partition,
         "occt" => clinothem::assembly::Engine::Occt,
         other => return Err(format!("no engine `{other}`; there are partition and occt").into()),
     };
-    let runs = args.next().map_or(Ok(1), |runs| runs.parse())?;
-    let brep = args.next();
-    let belt = belt::realise(&model, count.parse()?)?;
-    for _ in 0..runs {
-        let result = timed::run(&belt, engine, brep.as_deref())?;
-        writeln!(std::io::stdout(), "{result}")?;
-    }
+    let case = bench::realise(&model, args)?;
+    let result = timed::run(&case, engine, brep.as_ref())?;
+    writeln!(std::io::stdout(), "{result}")?;
     Ok(())
 }
 
@@ -38,6 +34,7 @@ fn main() {}
 #[cfg(feature = "occt")]
 mod timed {
     use std::error::Error;
+    use std::path::Path;
     use std::time::Instant;
 
     use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
@@ -52,7 +49,7 @@ mod timed {
     pub(crate) fn run(
         (model, realisation): &(Model, Realisation),
         engine: Engine,
-        file: Option<&str>,
+        file: &Path,
     ) -> Result<Value, Box<dyn Error>> {
         let options = Options {
             engine,
@@ -80,9 +77,7 @@ mod timed {
             "clinothem {} on OpenCASCADE {}",
             program.version, program.occt
         ));
-        if let Some(path) = file {
-            brep::write(path.as_ref(), &made)?;
-        }
+        brep::write(file, &made)?;
         Ok(result)
     }
 

@@ -10,6 +10,10 @@ use super::tracks::{Geometry, Source, Track};
 /// The *near* side of the level is the sheet's; the *wedge* is what lies between the sheet and the part of the level
 /// under it.
 #[derive(Clone, Copy, Debug)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "four independent answers, each with its own name"
+)]
 struct Contact {
     /// Whether the level's region lies on the near side.
     near_is_inner: bool,

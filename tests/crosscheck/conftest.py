@@ -23,6 +23,8 @@ assert MODELS, "there are no models to check"
 ROUGH, ROUGH_SUM, FINE, FINE_SUM = 1e-3, 1e-4, 1e-5, 1e-6
 # The same for models with ellipsoids, whose rational surfaces the fixed number of points fits worse: up to 2.3e-3.
 ROUGH_ROUND = 3e-3
+# How many tolerances the boundary of a tiny, sharp piece may be off: 3.1 in a sliver of 25 litres of `coastal`.
+SHARP = 4
 
 
 @dataclass(frozen=True)
@@ -125,8 +127,9 @@ class Build:
         return self.report["assembly"]["tolerance_m"]
 
     def same_volume(self, found, promised, relative, area):
-        """A tiny piece is known no better than its boundary: tolerance times area, but never more than ten litres."""
-        floor = min(self.tolerance * area, 0.01)
+        """A tiny piece is known no better than its boundary: some tolerances (where faces meet at a few degrees, curves
+        move by more than one) times area, but never more than ten litres."""
+        floor = min(SHARP * self.tolerance * area, 0.01)
         return abs(found - promised) <= max(relative * promised, floor)
 
 

@@ -102,9 +102,10 @@ def on_one_wall(face, domain, tolerance):
     face = bd.Face(face)
     if face.geom_type != bd.GeomType.PLANE:
         return False
-    corners = [vertex.center() for vertex in face.vertices()]
+    # Its middle, too: both corners of a face between a wall and a curve lie in that wall.
+    points = [*(vertex.center() for vertex in face.vertices()), face.center(bd.CenterOf.GEOMETRY)]
     return any(
-        all(abs(getattr(corner, axis.upper()) - wall) <= tolerance for corner in corners)
+        all(abs(getattr(point, axis.upper()) - wall) <= tolerance for point in points)
         for axis in "xyz"
         for wall in domain[axis]
     )

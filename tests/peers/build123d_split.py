@@ -1,6 +1,6 @@
-"""build123d: the block is split by the shell of one body after another (`split`, `Keep.ALL`). It has no general fuse that keeps
-cells: `fuse` keeps the outside only. Splits run one after another and serially, as build123d calls them. Cells with boxes
-apart from the body are not split."""
+"""build123d: the block is split by one body after another (`split`, `Keep.ALL`): by its shell, or by the sheets
+of a side. It has no general fuse that keeps cells: `fuse` keeps the outside only. Splits run one after another and serially,
+as build123d calls them. Cells with boxes apart from the body are not split."""
 
 from importlib.metadata import version
 
@@ -18,12 +18,12 @@ def box(shape):
 def work(block, bodies):
     cells = [(block, box(block))]
     for body in bodies:
-        limits, shell, left = box(body), body.shell(), []
+        limits, tool, left = box(body), body.shell() if body.solids() else body, []
         for cell, around in cells:
             if race.apart(around, limits):
                 left.append((cell, around))
             else:
-                left += [(one, box(one)) for one in cell.split(shell, Keep.ALL)]
+                left += [(one, box(one)) for one in cell.split(tool, Keep.ALL)]
         cells = left
     return [cell for cell, _ in cells]
 

@@ -1,4 +1,5 @@
-"""Gmsh: one general fuse of the block and all bodies. Parallel where OpenCASCADE's fuse is (Geometry.OCCParallel)."""
+"""Gmsh: one general fuse of the block, all bodies and the sheets of all sides. Parallel where OpenCASCADE's fuse is
+(Geometry.OCCParallel)."""
 
 import re
 
@@ -14,15 +15,15 @@ VERSION = f"Gmsh {gmsh.__version__} on OpenCASCADE {KERNEL[1] if KERNEL else '?'
 
 
 def read(path):
-    (solid,) = gmsh.model.occ.importShapes(path)
-    return solid
+    # A solid, or the faces of a side.
+    return gmsh.model.occ.importShapes(path)
 
 
 def work(block, bodies):
-    _, images = gmsh.model.occ.fragment([block], bodies)
-    # What lies outside of the block is in no image of it.
+    _, images = gmsh.model.occ.fragment(block, [shape for body in bodies for shape in body])
+    # What lies outside of the block is in no image of it. Faces stay: those inside belong to the cells beside them.
     inside = set(images[0])
-    outside = {cell for image in images[1:] for cell in image} - inside
+    outside = {cell for image in images[1:] for cell in image if cell[0] == 3} - inside
     gmsh.model.occ.remove(sorted(outside))
 
 

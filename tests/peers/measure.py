@@ -1,13 +1,16 @@
-"""Measures a result, after the race and with the same yardstick for all: `measure.py FOLDER RESULT parts|cells`.
+"""Measures a result, after the race and with the same yardstick for all:
+
+    measure.py BODIES RESULT parts|cells PROGRAM [ARGUMENT…]
 
 Prints JSON: the solids inside the block, the sum of their volumes, the faces that two solids share, and the volume of each
-body. In *parts* a result has a compound for each body; in *cells* the body of a cell is the youngest that holds points
-just inside of it. Volumes are OpenCASCADE's integrals with a relative error of 1e-8 per face (`BRepGProp_Vinert` with eps, what
-`VolumeProperties` with eps runs over),
-seen from the middle of the block, for every program's solids alike.
+body. In *parts* a result has a compound for each body. Of *cells*, PROGRAM says which volume holds points just inside of
+each: examples/bench_owners.rs, which knows control nets and rules and no solid. Volumes are OpenCASCADE's integrals with a
+relative error of 1e-8 per face (`BRepGProp_Vinert` with eps, what `VolumeProperties` with eps runs over), seen from the
+middle of the block, for every program's solids alike.
 """
 
 import json
+import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
@@ -71,7 +74,9 @@ class Fluxes:
             forward = TopoDS.Face_s(face.Oriented(TopAbs_FORWARD))
             inert = BRepGProp_Vinert(BRepGProp_Face(forward), BRepGProp_Domain(forward), self.middle, EPS)
             self.known[index] = inert.Mass()
-        return -self.known[index] if face.Orientation() == TopAbs_REVERSED else self.known[index]
+        # A face that hangs inside of a solid bounds nothing.
+        signs = {TopAbs_FORWARD: 1.0, TopAbs_REVERSED: -1.0}
+        return signs.get(face.Orientation(), 0.0) * self.known[index]
 
     def volume(self, solid):
         return sum(self.of(face) for face in below(solid, TopAbs_FACE))
@@ -98,66 +103,53 @@ def points_inside(solid, depth):
                 return
 
 
-class Bodies:
-    """Who holds a point: None outside of the block, 0 for the background, else the youngest body."""
-
-    def __init__(self, folder):
-        self.shapes = [read(path) for path in sorted(Path(folder).glob("*.brep"))]
-        self.names = [path.stem.split("-", 1)[1] for path in sorted(Path(folder).glob("*.brep"))]
-        self.boxes = [box(shape) for shape in self.shapes]
-        self.classifiers = [BRepClass3d_SolidClassifier(shape) for shape in self.shapes]
-
-    def holds(self, body, point):
-        if self.boxes[body].IsOut(point):
-            return False
-        self.classifiers[body].Perform(point, CLOSE)
-        return self.classifiers[body].State() == TopAbs_IN
-
-    def at(self, point):
-        if not self.holds(0, point):
-            return None
-        return next((body for body in range(len(self.shapes) - 1, 0, -1) if self.holds(body, point)), 0)
-
-    def of(self, solid):
-        for depth in INSIDE:
-            votes = Counter(self.at(point) for point in points_inside(solid, depth))
-            if votes:
-                return votes.most_common(1)[0][0]
-        return UNKNOWN
+def owners(cells, program):
+    """Each cell with the name of the volume that most points inside of it belong to; cells outside of the block are left out."""
+    asked = []
+    for cell in cells:
+        found = next((points for depth in INSIDE if (points := list(points_inside(cell, depth)))), [])
+        asked.append(found)
+    lines = [f"{p.X()!r} {p.Y()!r} {p.Z()!r}\n" for points in asked for p in points]
+    told = subprocess.run(program, input="".join(lines), capture_output=True, text=True, check=True)
+    names = iter(told.stdout.splitlines())
+    for cell, points in zip(cells, asked, strict=True):
+        votes = Counter(next(names) for _ in points)
+        name = votes.most_common(1)[0][0] if votes else UNKNOWN
+        if name:
+            yield name, cell
 
 
-def labelled(result, kind, bodies):
-    """Each solid with its body."""
-    if kind == "cells":
-        return [(bodies.of(solid), solid) for solid in below(result, TopAbs_SOLID)]
-    iterator, found, body = TopoDS_Iterator(result), [], 0
-    while iterator.More():
-        found += [(body, solid) for solid in below(iterator.Value(), TopAbs_SOLID)]
+def parts(result, names):
+    """Each solid with the name of its body, from a compound per body in their order."""
+    iterator = TopoDS_Iterator(result)
+    for name in names:
+        for solid in below(iterator.Value(), TopAbs_SOLID):
+            yield name, solid
         iterator.Next()
-        body += 1
-    return found
 
 
 def main():
-    folder, path, kind = sys.argv[1:]
-    bodies = Bodies(folder)
-    corner = [bodies.boxes[0].CornerMin(), bodies.boxes[0].CornerMax()]
+    folder, path, kind, *program = sys.argv[1:]
+    bodies = sorted(Path(folder).glob("*.brep"))
+    block, result = read(bodies[0]), read(path)
+    corner = [box(block).CornerMin(), box(block).CornerMax()]
     middle = gp_Pnt(*((getattr(corner[0], c)() + getattr(corner[1], c)()) / 2 for c in "XYZ"))
+    if kind == "cells":
+        named = owners(below(result, TopAbs_SOLID), program)
+    else:
+        named = parts(result, [body.stem.split("-", 1)[1] for body in bodies])
     fluxes = Fluxes(middle)
-    block = fluxes.volume(bodies.shapes[0])
     sizes, uses, solids = Counter(), Counter(), 0
-    for body, solid in labelled(read(path), kind, bodies):
-        if body is None:
-            continue
+    for name, solid in named:
         solids += 1
-        sizes[body] += fluxes.volume(solid)
+        sizes[name] += fluxes.volume(solid)
         uses.update({fluxes.index(face) for face in below(solid, TopAbs_FACE)})
     told = {
         "solids": solids,
         "faces": len(uses),
         "shared_faces": sum(count > 1 for count in uses.values()),
-        "volume_error": sum(sizes.values()) - block,
-        "volumes": {bodies.names[body]: size for body, size in sizes.items() if body != UNKNOWN},
+        "volume_error": sum(sizes.values()) - fluxes.volume(block),
+        "volumes": {name: size for name, size in sizes.items() if name != UNKNOWN},
     }
     print(json.dumps(told))
 

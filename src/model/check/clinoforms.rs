@@ -18,6 +18,14 @@ pub(super) const MOST_SHEETS: u64 = 500;
 const SHORELINE: [f64; 2] = [3000.0, 6000.0];
 const EXPONENT: f64 = 2.0;
 
+/// What a set of clinoforms divides.
+#[derive(Clone, Copy)]
+enum Unit {
+    Background,
+    /// That of a horizon.
+    Of(usize),
+}
+
 impl Checker<'_> {
     pub(super) fn clinoforms(
         &mut self,
@@ -86,13 +94,13 @@ impl Checker<'_> {
     }
 
     /// The parent, which must be a horizon; the background if there is none.
-    fn unit(&self, draft: &Draft, family: &Family<'_>) -> Option<Option<usize>> {
+    fn unit(&self, draft: &Draft, family: &Family<'_>) -> Option<Unit> {
         let Some((at, name)) = &draft.parent else {
-            return (!draft.wrong_parent()).then_some(None);
+            return (!draft.wrong_parent()).then_some(Unit::Background);
         };
         let &parent = family.index.get(name)?;
         if family.is_horizon(parent) {
-            return Some(Some(parent));
+            return Some(Unit::Of(parent));
         }
         // An unknown kind is a defect of its own.
         if let Some(kind) = family.drafts[parent].kind {
@@ -115,12 +123,15 @@ impl Checker<'_> {
         field: Option<Field<String>>,
         draft: &Draft,
         family: &Family<'_>,
-        unit: Option<Option<usize>>,
+        unit: Option<Unit>,
     ) -> Option<Bound> {
         let Some(field) = field else {
             let next = unit.and_then(|unit| {
                 let mut horizons = family.horizons().into_iter().map(|(i, _)| i);
-                let above = |i: usize| unit.is_none_or(|unit| i > unit);
+                let above = |i: usize| match unit {
+                    Unit::Background => true,
+                    Unit::Of(unit) => i > unit,
+                };
                 horizons.find(|&i| above(i) && family.drafts[i].enabled)
             });
             return Some(next.map_or(Bound::Domain, Bound::Horizon));
@@ -160,7 +171,7 @@ impl Checker<'_> {
             }
             return None;
         }
-        if let Some(Some(unit)) = unit
+        if let Some(Unit::Of(unit)) = unit
             && top <= unit
         {
             let own = &family.drafts[unit].name;

@@ -1,4 +1,4 @@
-//! A channel belt with as many channels as asked for; what the benchmarks have in common.
+//! A model with settings, as `--set` makes them; what the benchmarks have in common.
 
 use std::error::Error;
 
@@ -6,11 +6,16 @@ use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 use clinothem::model::{Format, Model, Source};
 
-/// Reads a model file, sets the number of its channels and makes their control nets.
-pub(crate) fn realise(path: &str, count: u32) -> Result<(Model, Realisation), Box<dyn Error>> {
+/// Reads a model file, sets what the settings say (`feature.channel.count=5`) and makes the control nets.
+pub(crate) fn realise(
+    path: &str,
+    settings: impl Iterator<Item = String>,
+) -> Result<(Model, Realisation), Box<dyn Error>> {
     let text = std::fs::read_to_string(path)?;
     let mut source = Source::from_text(path, &text, Format::Toml);
-    source.set(format!("feature.channel.count={count}"));
+    for setting in settings {
+        source.set(setting);
+    }
     let model = Model::check(&source).map_err(|defects| defects.to_string())?;
     let realisation = Realisation::new(&model, &Selection::default())?;
     Ok((model, realisation))
