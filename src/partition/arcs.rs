@@ -81,7 +81,9 @@ fn along(
         // Outside of the domain nobody asks.
         if let (Some(mut before), Some(region @ 1..)) = (before.take(), pair[0].region) {
             before[region] = !before[region];
-            contradictions += usize::from(before != sides && sides[0]);
+            let differs =
+                || around(own, before.clone(), labels) != around(own, sides.clone(), labels);
+            contradictions += usize::from(before != sides && sides[0] && differs());
         }
         let flaps = if own[0] == own[1] {
             rim(geometry, track.source, own[0], &sides, labels)
@@ -101,6 +103,15 @@ fn along(
         }
     }
     (arcs, contradictions)
+}
+
+/// Labels around an arc. Sides may differ where these do not: beyond an open border a region ends anywhere.
+fn around(own: [usize; 2], mut sides: Vec<bool>, labels: Labels<'_>) -> [Label; 4] {
+    [[true, true], [true, false], [false, false], [false, true]].map(|inside| {
+        sides[own[0]] = inside[0];
+        sides[own[1]] = inside[1];
+        labels(&sides)
+    })
 }
 
 fn is_landing(geometry: Geometry<'_>, source: Source) -> bool {
