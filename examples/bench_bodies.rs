@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         return Err("a model file, the number of channels, and a folder".into());
     };
     let (model, realisation) = belt::realise(&model, count.parse()?)?;
-    let plan = AssemblyPlan::new(&realisation, &model.domain)?;
+    let plan = AssemblyPlan::new(&realisation)?;
     std::fs::create_dir_all(&folder)?;
     bodies::write(folder.as_ref(), &plan)?;
     Ok(())

@@ -11,6 +11,7 @@ use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, picture};
 use crate::export::mesh;
+use crate::export::picture::cap;
 use crate::export::picture::view::{Box3, Camera, Cut, Part, Projection, Scene};
 use crate::model::rules::BACKGROUND;
 
@@ -92,11 +93,25 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, false)?;
     let owners = loaded.owners()?;
     let (volumes, legend) = picture::key(&loaded);
-    let (low, high) = owners.domain();
+    let (low, high) = (owners.extent().low(), owners.extent().high());
     let camera = camera(args);
     let (parts, loaded) = match args.style {
         Style::Block => (Vec::new(), loaded),
         Style::Solids => solids(args, loaded)?,
+    };
+    let shown = |point: DVec3| {
+        let owner = owners.at(point)?;
+        // Among solids the background stays open, so that they can be seen.
+        let open = args.style == Style::Solids && owner == BACKGROUND;
+        if open {
+            None
+        } else {
+            u32::try_from(owner).ok()
+        }
+    };
+    let parts = match args.style {
+        Style::Block => cap::caps(owners.extent(), &shown),
+        Style::Solids => parts,
     };
     let cut = args.cut.map(|at| corner(at, &camera, low, high));
     let scene = Scene {
@@ -108,16 +123,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         legend,
         camera,
         cut,
-    };
-    let shown = |point: DVec3| {
-        let owner = owners.at(point)?;
-        // Among solids the background stays open, so that they can be seen.
-        let open = args.style == Style::Solids && owner == BACKGROUND;
-        if open {
-            None
-        } else {
-            u32::try_from(owner).ok()
-        }
     };
     let bytes = scene
         .png(args.size[0], args.size[1], Some(&shown))
@@ -159,7 +164,7 @@ fn solids(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure> {
     let progress = Progress::new(args.engine.quiet);
     let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
-    let deflection = DEFLECTION * built.plan.low.distance(built.plan.high);
+    let deflection = DEFLECTION * built.plan.low().distance(built.plan.high());
     let meshes = mesh::triangulate(&built.assembly, deflection)
         .map_err(|error| Failure::Surroundings(error.to_string()))?;
     progress.done();

@@ -43,7 +43,7 @@ mod tests {
         let source = Source::from_text("quickstart.toml", QUICKSTART, Format::Toml);
         let model = Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));
         let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-        let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
+        let plan = AssemblyPlan::new(&realisation).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let files = write(folder.path(), &plan).unwrap();
         let names: Vec<_> = files
