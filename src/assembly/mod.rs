@@ -87,6 +87,8 @@ pub struct Failed {
 /// A proven assembly.
 pub struct Assembly {
     pub(crate) solids: kernel::Solids,
+    /// Which argument of the engine the plan's first shell was.
+    first_shell: usize,
     /// Volumes, areas and neighbours.
     pub measured: Measured,
     /// The proof.
@@ -115,6 +117,14 @@ impl Assembly {
             .iter()
             .find(|solid| solid.shells > 1)
             .map(|solid| solid.owner)
+    }
+
+    /// The plan's shell on whose boundary a face lies; none on the domain's skin and on lids.
+    pub(crate) fn shell_of_face(&self, face: usize) -> Option<usize> {
+        let origins = &self.solids.faces()[face].origins;
+        origins
+            .iter()
+            .find_map(|origin| origin.argument.checked_sub(self.first_shell))
     }
 
     /// All solids in one shape with common faces, in the order of [`Measured::pieces`].
@@ -331,6 +341,7 @@ impl Run<'_> {
     fn finish(&mut self, candidate: Candidate, proof: Proof) -> Assembly {
         Assembly {
             solids: candidate.solids,
+            first_shell: 1 + candidate.evidence.lids,
             measured: candidate.measured,
             proof,
             engine: candidate.engine,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::kernel::{
     Cancel, Curve, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Pcurve, Solids, Surface,
@@ -121,20 +122,8 @@ fn partition(
     options: &Options,
     cancel: &Cancel,
 ) -> Result<Partition, Trouble> {
-    let mut regions = vec![Region::Block {
-        low: plan.low(),
-        high: plan.high(),
-    }];
-    regions.extend(plan.lids.iter().map(|level| Region::Above(*level)));
-    for (index, shell) in plan.shells.iter().enumerate() {
-        regions.push(region(plan, owners, index, shell)?);
-    }
-    let first_bound = regions.len();
-    let mut within = Vec::new();
-    for (is_top, side) in plan.bounds() {
-        regions.push(open(side));
-        within.push(!is_top);
-    }
+    let first_bound = 1 + plan.lids.len() + plan.shells.len();
+    let within: Vec<bool> = plan.bounds().map(|(is_top, _)| !is_top).collect();
     let holders = Holders::new(&plan.bodies, plan.rules.len(), plan.lids.len());
     let labels = |inside: &[bool]| {
         // Outside of the domain is what is below its base or above its top.
@@ -157,13 +146,40 @@ fn partition(
         stop: &|| cancel.is_cancelled(),
         meet: &meet,
     };
+    let run = || {
+        Ok(partition::partition(
+            regions(plan, owners)?,
+            &labels,
+            &settings,
+        )?)
+    };
     if options.threads == 0 {
-        return Ok(partition::partition(regions, &labels, &settings)?);
+        return run();
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads)
         .build()?;
-    Ok(pool.install(|| partition::partition(regions, &labels, &settings))?)
+    pool.install(run)
+}
+
+/// The block, the lids and the shells; then what bounds the domain in the block.
+fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region>, Trouble> {
+    let mut regions = vec![Region::Block {
+        low: plan.low(),
+        high: plan.high(),
+    }];
+    regions.extend(plan.lids.iter().map(|level| Region::Above(*level)));
+    let shells: Vec<_> = plan
+        .shells
+        .par_iter()
+        .enumerate()
+        .map(|(index, shell)| region(plan, owners, index, shell))
+        .collect();
+    for shell in shells {
+        regions.push(shell?);
+    }
+    regions.extend(plan.bounds().map(|(_, side)| open(side)));
+    Ok(regions)
 }
 
 /// By region: the volumes that ask for it; none for the block, its base and top, and for lids.

@@ -62,6 +62,8 @@ enum Style {
     /// The assembled solids of all bodies, the background left open.
     #[default]
     Solids,
+    /// The surfaces between the volumes, as they are cut inside the domain.
+    Sheets,
     /// A block whose faces are coloured by the point evaluator; no kernel is used.
     Block,
 }
@@ -97,12 +99,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let camera = camera(args);
     let (parts, loaded) = match args.style {
         Style::Block => (Vec::new(), loaded),
-        Style::Solids => solids(args, loaded)?,
+        Style::Solids | Style::Sheets => assembled(args, loaded)?,
     };
     let shown = |point: DVec3| {
         let owner = owners.at(point)?;
         // Among solids the background stays open, so that they can be seen.
-        let open = args.style == Style::Solids && owner == BACKGROUND;
+        let open = match args.style {
+            Style::Block => false,
+            Style::Solids => owner == BACKGROUND,
+            Style::Sheets => true,
+        };
         if open {
             None
         } else {
@@ -111,7 +117,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let parts = match args.style {
         Style::Block => cap::caps(owners.extent(), &shown),
-        Style::Solids => parts,
+        Style::Solids | Style::Sheets => parts,
     };
     let cut = args.cut.map(|at| corner(at, &camera, low, high));
     let scene = Scene {
@@ -158,15 +164,18 @@ fn corner(at: [f64; 2], camera: &Camera, low: DVec3, high: DVec3) -> Cut {
     }
 }
 
-/// The solids of all bodies as parts.
-fn solids(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure> {
+/// The solids of all bodies, or their sheets, as parts.
+fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure> {
     let cancel = interrupt::cancel()?;
     let progress = Progress::new(args.engine.quiet);
     let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
     let deflection = DEFLECTION * built.plan.low().distance(built.plan.high());
-    let meshes = mesh::triangulate(&built.assembly, deflection)
-        .map_err(|error| Failure::Surroundings(error.to_string()))?;
+    let meshes = match args.style {
+        Style::Sheets => mesh::triangulate_sheets(&built.assembly, &built.plan, deflection),
+        Style::Solids | Style::Block => mesh::triangulate(&built.assembly, deflection),
+    }
+    .map_err(|error| Failure::Surroundings(error.to_string()))?;
     progress.done();
     let parts = meshes
         .into_iter()

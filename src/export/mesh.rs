@@ -1,9 +1,12 @@
 //! Triangles of solids, for pictures.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::ExportError;
 use crate::assembly::{Assembly, kernel};
+use crate::model::plan::AssemblyPlan;
 
 /// Triangles of one volume's solids, looking outwards.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,17 +26,7 @@ const ANGLE: f64 = 0.3;
 
 /// Triangulates all solids, to within a distance of the exact surfaces (m), one mesh a volume.
 pub fn triangulate(assembly: &Assembly, deflection: f64) -> Result<Vec<VolumeMesh>, ExportError> {
-    let options = kernel::MeshOptions {
-        deflection,
-        angle: ANGLE,
-        threads: kernel::Threads::All,
-    };
-    let faces = kernel::triangulate_solids(&assembly.solids, &options).map_err(|error| {
-        ExportError::Kernel {
-            what: "triangles",
-            message: error.to_string(),
-        }
-    })?;
+    let faces = faces(assembly, deflection)?;
     let mut meshes: Vec<VolumeMesh> = Vec::new();
     for piece in &assembly.measured.pieces {
         if meshes.last().is_none_or(|mesh| mesh.volume != piece.volume) {
@@ -50,6 +43,42 @@ pub fn triangulate(assembly: &Assembly, deflection: f64) -> Result<Vec<VolumeMes
         }
     }
     Ok(meshes)
+}
+
+/// Triangulates the sheets inside the domain, each as far as it parts two volumes, one mesh a body, named by its first
+/// volume.
+pub fn triangulate_sheets(
+    assembly: &Assembly,
+    plan: &AssemblyPlan,
+    deflection: f64,
+) -> Result<Vec<VolumeMesh>, ExportError> {
+    let faces = faces(assembly, deflection)?;
+    let mut meshes: BTreeMap<usize, VolumeMesh> = BTreeMap::new();
+    for (at, face) in faces.iter().enumerate() {
+        let shell = assembly.shell_of_face(at);
+        let Some(body) = plan.bodies.iter().find(|body| Some(body.shell) == shell) else {
+            continue;
+        };
+        let volume = body.volume;
+        let mesh = meshes.entry(volume).or_insert_with(|| VolumeMesh {
+            volume,
+            ..VolumeMesh::default()
+        });
+        append(mesh, face, false);
+    }
+    Ok(meshes.into_values().collect())
+}
+
+fn faces(assembly: &Assembly, deflection: f64) -> Result<Vec<kernel::FaceMesh>, ExportError> {
+    let options = kernel::MeshOptions {
+        deflection,
+        angle: ANGLE,
+        threads: kernel::Threads::All,
+    };
+    kernel::triangulate_solids(&assembly.solids, &options).map_err(|error| ExportError::Kernel {
+        what: "triangles",
+        message: error.to_string(),
+    })
 }
 
 fn append(mesh: &mut VolumeMesh, face: &kernel::FaceMesh, reversed: bool) {

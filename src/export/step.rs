@@ -127,6 +127,10 @@ pub fn write_surfaces(
                 ..StepNode::default()
             });
         }
+        // What lies everywhere in its unit has no surface of its own.
+        if children.is_empty() {
+            continue;
+        }
         root.children.push(StepNode {
             name: rules.name.clone(),
             children,

@@ -36,12 +36,11 @@ impl Surface {
     #[must_use]
     pub fn transposed(&self) -> Self {
         let (nu, nv) = (self.knots_u().count(), self.knots_v().count());
-        let order = || (0..nv).flat_map(|j| (0..nu).map(move |i| i * nv + j));
         Self::trusted(
             self.knots_v().clone(),
             self.knots_u().clone(),
-            order().map(|k| self.net()[k]).collect(),
-            order().map(|k| self.weights()[k]).collect(),
+            transposed(self.net(), nu, nv),
+            transposed(self.weights(), nu, nv),
             self.is_rational(),
         )
     }
@@ -79,4 +78,12 @@ impl Surface {
             self.is_rational(),
         )
     }
+}
+/// A net of rows as a net of columns.
+fn transposed<T: Copy>(net: &[T], rows: usize, columns: usize) -> Vec<T> {
+    let mut turned = Vec::with_capacity(net.len());
+    for j in 0..columns {
+        turned.extend((0..rows).map(|i| net[i * columns + j]));
+    }
+    turned
 }

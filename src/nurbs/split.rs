@@ -133,17 +133,18 @@ impl Surface {
         Self::trusted(
             self.knots_u().clone(),
             v,
-            self.net()
-                .chunks(nv)
-                .flat_map(|row| &row[own.clone()])
-                .copied()
-                .collect(),
-            self.weights()
-                .chunks(nv)
-                .flat_map(|row| &row[own.clone()])
-                .copied()
-                .collect(),
+            columns(self.net(), nv, own.clone()),
+            columns(self.weights(), nv, own),
             self.is_rational(),
         )
     }
+}
+
+/// Some columns of a net with rows of a length.
+fn columns<T: Copy>(net: &[T], row: usize, own: std::ops::Range<usize>) -> Vec<T> {
+    let mut columns = Vec::with_capacity(net.len() / row * own.len());
+    for row in net.chunks(row) {
+        columns.extend_from_slice(&row[own.clone()]);
+    }
+    columns
 }

@@ -79,11 +79,15 @@ fn along(
         let point = geometry.point(track.source, probe);
         let sides = sides(geometry, own, point);
         // Outside of the domain nobody asks.
-        if let (Some(mut before), Some(region @ 1..)) = (before.take(), pair[0].region) {
-            before[region] = !before[region];
-            let differs =
-                || around(own, before.clone(), labels) != around(own, sides.clone(), labels);
-            contradictions += usize::from(before != sides && sides[0] && differs());
+        if let (Some(before), Some(region @ 1..)) = (before.take(), pair[0].region) {
+            let flipped = |at: usize| before[at] != sides[at];
+            let around = Around { own, labels };
+            let contradicts = |at: usize| {
+                flipped(at) != (at == region)
+                    && around.depend(&before, at)
+                    && around.depend(&sides, at)
+            };
+            contradictions += usize::from(sides[0] && (0..sides.len()).any(contradicts));
         }
         let flaps = if own[0] == own[1] {
             rim(geometry, track.source, own[0], &sides, labels)
@@ -105,13 +109,29 @@ fn along(
     (arcs, contradictions)
 }
 
-/// Labels around an arc. Sides may differ where these do not: beyond an open border a region ends anywhere.
-fn around(own: [usize; 2], mut sides: Vec<bool>, labels: Labels<'_>) -> [Label; 4] {
-    [[true, true], [true, false], [false, false], [false, true]].map(|inside| {
-        sides[own[0]] = inside[0];
-        sides[own[1]] = inside[1];
-        labels(&sides)
-    })
+/// The sectors around an arc of some regions.
+struct Around<'a> {
+    own: [usize; 2],
+    labels: Labels<'a>,
+}
+
+impl Around<'_> {
+    /// Whether any sector's label depends on a region. Where it does not, a region's side tells nothing: an open
+    /// sheet's may change without the sheet being passed.
+    fn depend(&self, sides: &[bool], region: usize) -> bool {
+        let mut with = sides.to_vec();
+        [false, true].into_iter().any(|first| {
+            [false, true].into_iter().any(|second| {
+                with[self.own[0]] = first;
+                with[self.own[1]] = second;
+                let label = (self.labels)(&with);
+                with[region] = !with[region];
+                let other = (self.labels)(&with);
+                with[region] = !with[region];
+                label != other
+            })
+        })
+    }
 }
 
 fn is_landing(geometry: Geometry<'_>, source: Source) -> bool {

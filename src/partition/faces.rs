@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use super::Label;
 use super::arcs::Arc;
 use super::check::Faults;
+use super::polygon::{Outline, holds, signed_area};
 use super::tracks::{Geometry, Source, Tracks};
 
 /// One side of an arc on one sheet.
@@ -121,47 +122,48 @@ impl Tracer<'_> {
         let (mut links, places) = self.links(halves);
         self.connect(&mut links, places, &mut faults);
         let loops = close(&links, &mut faults);
-        let mut outer: Vec<(Face, f64)> = Vec::new();
-        let mut holes: Vec<(Vec<usize>, Vec<DVec2>, f64)> = Vec::new();
+        let mut outer: Vec<(Face, Outline)> = Vec::new();
+        let mut holes: Vec<(Vec<usize>, Outline)> = Vec::new();
         for one in loops {
-            if one
-                .iter()
-                .any(|at| links[*at].labels != links[one[0]].labels)
-            {
-                faults.mixed_loops += 1;
-            }
+            let labels = links[one[0]].labels;
+            faults.mixed_loops += usize::from(one.iter().any(|at| links[*at].labels != labels));
             let polygon = self.polygon(&one, &links);
             let area = signed_area(&polygon);
+            let outline = Outline::new(polygon, area.abs());
             if area > 0.0 {
                 let face = Face {
                     sheet: self.sheet,
-                    labels: links[one[0]].labels,
+                    labels,
                     loops: vec![one.iter().map(|at| links[*at].half).collect()],
-                    polygons: vec![polygon],
+                    polygons: Vec::new(),
                 };
-                outer.push((face, area));
+                outer.push((face, outline));
             } else {
-                holes.push((one, polygon, -area));
+                holes.push((one, outline));
             }
         }
-        for (one, polygon, area) in holes {
+        for (one, outline) in holes {
             let labels = links[one[0]].labels;
             let home = outer
                 .iter_mut()
-                .filter(|(face, around)| *around > area && face.labels == labels)
-                .filter(|(face, _)| holds(&face.polygons[0], &polygon))
-                .min_by(|a, b| a.1.total_cmp(&b.1));
+                .filter(|(face, around)| around.area > outline.area && face.labels == labels)
+                .filter(|(_, around)| holds(around, &outline))
+                .min_by(|a, b| a.1.area.total_cmp(&b.1.area));
             match home {
                 Some((face, _)) => {
                     face.loops
                         .push(one.iter().map(|at| links[*at].half).collect());
-                    face.polygons.push(polygon);
+                    face.polygons.push(outline.points);
                 }
                 None => faults.homeless_holes += 1,
             }
         }
+        let whole = |(mut face, outline): (Face, Outline)| {
+            face.polygons.insert(0, outline.points);
+            face
+        };
         Traced {
-            faces: outer.into_iter().map(|face| face.0).collect(),
+            faces: outer.into_iter().map(whole).collect(),
             faults,
         }
     }
@@ -388,33 +390,4 @@ fn close(links: &[Link], faults: &mut Faults) -> Vec<Vec<usize>> {
         loops.push(own);
     }
     loops
-}
-
-pub(super) fn signed_area(polygon: &[DVec2]) -> f64 {
-    let Some(&origin) = polygon.first() else {
-        return 0.0;
-    };
-    let pairs = polygon.iter().zip(polygon.iter().skip(1));
-    0.5 * pairs
-        .map(|(a, b)| (*a - origin).perp_dot(*b - origin))
-        .sum::<f64>()
-}
-
-/// Whether a polygon holds a point, by crossings of a ray.
-pub(super) fn encloses(polygon: &[DVec2], p: DVec2) -> bool {
-    let mut inside = false;
-    let mut b = polygon[polygon.len() - 1];
-    for &a in polygon {
-        if (a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x {
-            inside = !inside;
-        }
-        b = a;
-    }
-    inside
-}
-
-/// Whether most of a polygon's points lie in another polygon: single ones may lie on it.
-fn holds(outer: &[DVec2], inner: &[DVec2]) -> bool {
-    let within = inner.iter().filter(|p| encloses(outer, **p)).count();
-    2 * within > inner.len()
 }

@@ -55,23 +55,35 @@ pub(super) fn on_sheet(parts: &[f64; PARTS], side: usize) -> DVec2 {
 
 /// The six control points of the piece from one node to the next, `length` long.
 pub(super) fn control(a: &Node, b: &Node, length: f64) -> [[f64; PARTS]; 6] {
+    control_of(a, b, length, 0)
+}
+
+/// The same, of `K` parts from the `first` on.
+fn control_of<const K: usize>(a: &Node, b: &Node, length: f64, first: usize) -> [[f64; K]; 6] {
     let (h, k) = (length / 5.0, length * length / 20.0);
     // The node's quadratic Taylor polynomial as one of degree 5.
-    let taylor = |node: &Node, first: f64, second: f64| {
-        std::array::from_fn(|i| node.value[i] + first * node.first[i] + second * node.second[i])
+    let taylor = |node: &Node, once: f64, twice: f64| {
+        std::array::from_fn(|i| {
+            let i = first + i;
+            node.value[i] + once * node.first[i] + twice * node.second[i]
+        })
     };
     [
-        a.value,
+        taylor(a, 0.0, 0.0),
         taylor(a, h, 0.0),
         taylor(a, 2.0 * h, k),
         taylor(b, -2.0 * h, k),
         taylor(b, -h, 0.0),
-        b.value,
+        taylor(b, 0.0, 0.0),
     ]
 }
 
+/// The parts of a place in space, and of one on a sheet.
+const SPACE: usize = 0;
+const SHEETS: [usize; 2] = [3, 5];
+
 /// The piece's value at a fraction of its length.
-pub(super) fn at(points: &[[f64; PARTS]; 6], s: f64) -> [f64; PARTS] {
+pub(super) fn at<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
     let r = 1.0 - s;
     let (r2, s2) = (r * r, s * s);
     let weights = [
@@ -86,7 +98,7 @@ pub(super) fn at(points: &[[f64; PARTS]; 6], s: f64) -> [f64; PARTS] {
 }
 
 /// The piece's derivative by the fraction of its length.
-pub(super) fn slope(points: &[[f64; PARTS]; 6], s: f64) -> [f64; PARTS] {
+fn slope<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
     let r = 1.0 - s;
     let (r2, s2) = (r * r, s * s);
     let weights = [
@@ -160,11 +172,21 @@ impl Branch {
         at(&self.control(piece), s)
     }
 
-    /// Value and derivative by arc length.
-    pub(super) fn both(&self, t: f64) -> [[f64; PARTS]; 2] {
+    /// The point, and its derivative by arc length.
+    pub(super) fn in_space(&self, t: f64) -> [DVec3; 2] {
+        self.both(t, SPACE).map(DVec3::from_array)
+    }
+
+    /// The place on one of its sheets, and its derivative by arc length.
+    pub(super) fn image(&self, side: usize, t: f64) -> [DVec2; 2] {
+        self.both(t, SHEETS[side]).map(DVec2::from_array)
+    }
+
+    /// Value and derivative by arc length of `K` parts from the `first` on.
+    fn both<const K: usize>(&self, t: f64, first: usize) -> [[f64; K]; 2] {
         let (piece, s) = self.locate(t);
         let length = self.lengths[piece + 1] - self.lengths[piece];
-        let points = self.control(piece);
+        let points = control_of(&self.nodes[piece], &self.nodes[piece + 1], length, first);
         [at(&points, s), slope(&points, s).map(|d| d / length)]
     }
 
@@ -178,7 +200,7 @@ impl Branch {
             if from.distance_squared(p) > reach * reach {
                 continue;
             }
-            let (s, distance) = project(&self.control(piece), p);
+            let (s, distance) = project(&self.nodes[piece], &self.nodes[piece + 1], length, p);
             if distance < best.1 {
                 best = (self.lengths[piece] + s * length, distance);
             }
@@ -249,13 +271,13 @@ fn blossom(node: &Node, at: [f64; 5]) -> [f64; PARTS] {
 }
 
 /// The fraction of a piece that is nearest to a point, and its distance.
-pub(super) fn project(points: &[[f64; PARTS]; 6], p: DVec3) -> (f64, f64) {
-    let (start, end) = (space(&points[0]), space(&points[5]));
-    let chord = end - start;
-    let mut s = ((p - start).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
+pub(super) fn project(a: &Node, b: &Node, length: f64, p: DVec3) -> (f64, f64) {
+    let points = control_of(a, b, length, SPACE);
+    let chord = b.point() - a.point();
+    let mut s = ((p - a.point()).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
     for _ in 0..8 {
-        let here = space(&at(points, s));
-        let along = space(&slope(points, s));
+        let here = DVec3::from_array(at(&points, s));
+        let along = DVec3::from_array(slope(&points, s));
         let step = (p - here).dot(along) / along.length_squared();
         let next = (s + step).clamp(0.0, 1.0);
         if (next - s).abs() < 1e-15 {
@@ -263,5 +285,5 @@ pub(super) fn project(points: &[[f64; PARTS]; 6], p: DVec3) -> (f64, f64) {
         }
         s = next;
     }
-    (s, space(&at(points, s)).distance(p))
+    (s, DVec3::from_array(at(&points, s)).distance(p))
 }

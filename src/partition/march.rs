@@ -5,16 +5,16 @@ use glam::DVec3;
 
 use super::bounds::Bounds;
 use super::crossings::MATCH;
-use super::hermite::{self, Branch, End, Node};
+use super::hermite::{self, Branch, End, Node, PARTS};
 use super::pair::{Closing, Pair};
 use super::sheet::Border;
 
 /// Most steps of one branch.
 const MOST_STEPS: usize = 20_000;
-/// Samples of a piece while it is tried.
-const SAMPLES: usize = 3;
-/// Samples of a finished piece.
-const FINAL_SAMPLES: usize = 7;
+/// Where a piece is measured while it is tried, in fractions of its length.
+const TRIED: [f64; 3] = [0.25, 0.5, 0.75];
+/// Where else a piece is measured once it is taken.
+const TAKEN: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 /// Smallest step, as a fraction of the domain's size.
 const LEAST_STEP: f64 = 1e-8;
 /// First step, as a fraction of the domain's size.
@@ -45,12 +45,44 @@ pub(super) struct Stop {
 struct Run {
     nodes: Vec<Node>,
     lengths: Vec<f64>,
+    /// Farthest of any piece from the sheets.
+    deviation: f64,
     end: End,
 }
 
+/// A piece of a curve from where it is followed: its end, its length, and its deviation where it is tried.
+struct Piece {
+    node: Node,
+    length: f64,
+    deviation: f64,
+}
+
+impl Piece {
+    /// Its end as the place to go on from, `before` being its start.
+    fn place(&self, before: &Node) -> Place {
+        let rate = |i: usize| (self.node.second[i] - before.second[i]) / self.length;
+        let third = if self.length > 0.0 {
+            std::array::from_fn(rate)
+        } else {
+            [0.0; PARTS]
+        };
+        Place {
+            node: self.node,
+            third,
+        }
+    }
+}
+
+/// Where a curve is followed on from.
+struct Place {
+    node: Node,
+    /// About the third derivative by arc length, from the piece before: it makes guesses better.
+    third: [f64; PARTS],
+}
+
 enum Step {
-    To(Node, f64, Option<(usize, Border)>),
-    Closes(Node, f64),
+    To(Piece, Option<(usize, Border)>),
+    Closes(Piece),
     Stuck,
 }
 
@@ -60,7 +92,7 @@ impl March<'_> {
         let forward = self.run(start, start);
         if forward.end == End::Closed {
             let ends = [End::Closed; 2];
-            return Some(self.branch(vec![start], vec![], forward, ends));
+            return Some(branch(vec![start], vec![], 0.0, forward, ends));
         }
         let back = self.run(start.reversed(), start);
         let ends = [back.end, forward.end];
@@ -72,74 +104,47 @@ impl March<'_> {
             .collect();
         let lengths: Vec<f64> = back.lengths.iter().rev().copied().collect();
         let nodes = [nodes, vec![start]].concat();
-        Some(self.branch(nodes, lengths, forward, ends)).filter(|branch| branch.nodes.len() > 1)
+        Some(branch(nodes, lengths, back.deviation, forward, ends))
+            .filter(|branch| branch.nodes.len() > 1)
     }
 
     /// The branch that starts at a root on a border and runs inwards.
     pub(super) fn inwards_from(&self, start: Node, root: usize) -> Option<Branch> {
         let run = self.run(start, start);
         let ends = [End::AtRoot(root), run.end];
-        Some(self.branch(vec![start], vec![], run, ends)).filter(|branch| branch.nodes.len() > 1)
-    }
-
-    fn branch(
-        &self,
-        mut nodes: Vec<Node>,
-        mut between: Vec<f64>,
-        run: Run,
-        ends: [End; 2],
-    ) -> Branch {
-        nodes.extend(run.nodes);
-        between.extend(run.lengths);
-        let mut lengths = Vec::with_capacity(nodes.len());
-        lengths.push(0.0);
-        for (i, length) in between.iter().enumerate() {
-            lengths.push(lengths[i] + length);
-        }
-        let mut deviation: f64 = 0.0;
-        for (pair, length) in nodes.windows(2).zip(&between) {
-            let one = self
-                .pair
-                .deviation(&pair[0], &pair[1], *length, FINAL_SAMPLES);
-            deviation = deviation.max(one);
-        }
-        Branch {
-            nodes,
-            lengths,
-            deviation,
-            ends,
-        }
+        Some(branch(vec![start], vec![], 0.0, run, ends)).filter(|branch| branch.nodes.len() > 1)
     }
 
     fn run(&self, start: Node, origin: Node) -> Run {
         let mut run = Run {
             nodes: Vec::new(),
             lengths: Vec::new(),
+            deviation: 0.0,
             end: End::Tangent,
         };
-        let mut here = start;
+        let mut here = Place {
+            node: start,
+            third: [0.0; PARTS],
+        };
         let mut step = FIRST_STEP * self.pair.tolerances.scale;
         for count in 0..MOST_STEPS {
             match self.advance(&here, &origin, &mut step, count) {
                 Step::Stuck => return run,
-                Step::Closes(node, length) => {
-                    run.nodes.push(node);
-                    run.lengths.push(length);
+                Step::Closes(piece) => {
+                    self.take(&mut run, &here.node, &piece);
                     run.end = End::Closed;
                     return run;
                 }
-                Step::To(node, length, border) => {
-                    if let Some((node, length, stop)) = self.stopped(&here, &node, length) {
-                        run.nodes.push(node);
-                        run.lengths.push(length);
+                Step::To(piece, border) => {
+                    if let Some((piece, stop)) = self.stopped(&here.node, &piece) {
+                        self.take(&mut run, &here.node, &piece);
                         run.end = End::AtBorder(stop.side, stop.border);
                         return run;
                     }
-                    if length > self.pair.tolerances.same * 0.01 {
-                        run.nodes.push(node);
-                        run.lengths.push(length);
+                    if piece.length > self.pair.tolerances.same * 0.01 {
+                        self.take(&mut run, &here.node, &piece);
                     }
-                    let wanted = self.clip.holds(node.point());
+                    let wanted = self.clip.holds(piece.node.point());
                     if let Some((side, border)) = border {
                         let is_open = self.pair.sheets[side].open.contains(&border);
                         run.end = if wanted && !is_open {
@@ -149,20 +154,29 @@ impl March<'_> {
                         };
                         return run;
                     }
-                    if !wanted && !self.far.holds(node.point()) {
+                    if !wanted && !self.far.holds(piece.node.point()) {
                         run.end = End::Outside;
                         return run;
                     }
-                    here = node;
+                    here = piece.place(&here.node);
                 }
             }
         }
         run
     }
 
+    /// Adds a piece, measured once more between where it was tried.
+    fn take(&self, run: &mut Run, here: &Node, piece: &Piece) {
+        let between = self.pair.deviation(here, &piece.node, piece.length, &TAKEN);
+        run.deviation = run.deviation.max(piece.deviation).max(between);
+        run.nodes.push(piece.node);
+        run.lengths.push(piece.length);
+    }
+
     /// One accepted step; `step` is the length to try, and then the next one's.
-    fn advance(&self, here: &Node, origin: &Node, step: &mut f64, count: usize) -> Step {
+    fn advance(&self, here: &Place, origin: &Node, step: &mut f64, count: usize) -> Step {
         let tolerances = &self.pair.tolerances;
+        let (here, third) = (&here.node, &here.third);
         for _ in 0..40 {
             if *step < LEAST_STEP * tolerances.scale {
                 return Step::Stuck;
@@ -170,7 +184,8 @@ impl March<'_> {
             let h = *step;
             let mut q = here.parameters();
             for (i, value) in q.iter_mut().enumerate() {
-                *value += h * here.first[3 + i] + 0.5 * h * h * here.second[3 + i];
+                let bend = here.second[3 + i] + h / 3.0 * third[3 + i];
+                *value += h * (here.first[3 + i] + 0.5 * h * bend);
             }
             let (tangent, point) = (here.tangent(), here.point());
             let target = point + h * tangent + 0.5 * h * h * here.curvature();
@@ -193,14 +208,19 @@ impl March<'_> {
             let chord = node.point() - point;
             let length = chord.length();
             if border.is_some() && length < 0.01 * tolerances.same {
-                return Step::To(node, 0.0, border);
+                let piece = Piece {
+                    node,
+                    length: 0.0,
+                    deviation: 0.0,
+                };
+                return Step::To(piece, border);
             }
             if chord.dot(tangent) < 0.8 * length || node.tangent().dot(tangent) < 0.7 {
                 *step *= 0.5;
                 continue;
             }
             let length = arc(here, &node);
-            let deviation = self.pair.deviation(here, &node, length, SAMPLES);
+            let deviation = self.pair.deviation(here, &node, length, &TRIED);
             let ratio = (tolerances.curve / deviation.max(1e-300)).powf(1.0 / 6.0);
             if !(deviation <= tolerances.curve) {
                 *step = (0.7 * h).min(length.min(h) * (0.85 * ratio).max(0.25));
@@ -212,21 +232,26 @@ impl March<'_> {
                 return closing;
             }
             *step = length * (0.9 * ratio).clamp(0.5, 2.0);
-            return Step::To(node, length, border);
+            let piece = Piece {
+                node,
+                length,
+                deviation,
+            };
+            return Step::To(piece, border);
         }
         Step::Stuck
     }
 
     /// The first known end that a piece passes through before its own end, with the piece up to there.
-    fn stopped(&self, here: &Node, next: &Node, length: f64) -> Option<(Node, f64, &Stop)> {
-        let points = hermite::control(here, next, length);
+    fn stopped(&self, here: &Node, piece: &Piece) -> Option<(Piece, &Stop)> {
+        let length = piece.length;
         let same = self.pair.tolerances.same;
         let passes = |stop: &'_ &Stop| {
             let reach = 1.5 * length;
             if stop.point.distance_squared(here.point()) > reach * reach {
                 return None;
             }
-            let (s, distance) = hermite::project(&points, stop.point);
+            let (s, distance) = hermite::project(here, &piece.node, length, stop.point);
             let inside = s * length > 10.0 * same && (1.0 - s) * length > 10.0 * same;
             (inside && distance < MATCH * self.pair.tolerances.scale).then_some(s)
         };
@@ -236,7 +261,14 @@ impl March<'_> {
             .filter_map(|stop| passes(&stop).map(|s| (s, stop)))
             .min_by(|a, b| a.0.total_cmp(&b.0))?;
         let node = self.pair.node(first.1.q, Some(here.tangent()))?;
-        Some((node, arc(here, &node), first.1))
+        let length = arc(here, &node);
+        let deviation = self.pair.deviation(here, &node, length, &TRIED);
+        let piece = Piece {
+            node,
+            length,
+            deviation,
+        };
+        Some((piece, first.1))
     }
 
     /// Whether the piece from here to the next node passes through where the branch began.
@@ -245,8 +277,7 @@ impl March<'_> {
         if offset.length_squared() > 4.0 * length * length {
             return None;
         }
-        let points = hermite::control(here, next, length);
-        let (s, distance) = hermite::project(&points, origin.point());
+        let (s, distance) = hermite::project(here, next, length, origin.point());
         let near = distance < 1e3 * self.pair.tolerances.curve;
         // The same start may be given reversed.
         let end = if origin.tangent().dot(here.tangent()) < 0.0 {
@@ -254,8 +285,9 @@ impl March<'_> {
         } else {
             *origin
         };
+        let at = hermite::at(&hermite::control(here, next, length), s);
         let same_place = (0..4).all(|i| {
-            let at = hermite::at(&points, s)[3 + i];
+            let at = at[3 + i];
             let sheet = self.pair.sheets[i / 2];
             (at - end.value[3 + i]).abs() < 1e-3 * sheet.length(i % 2)
         });
@@ -267,8 +299,12 @@ impl March<'_> {
         if length < tolerances.same {
             return None;
         }
-        (self.pair.deviation(here, &end, length, SAMPLES) <= tolerances.curve)
-            .then_some(Step::Closes(end, length))
+        let deviation = self.pair.deviation(here, &end, length, &TRIED);
+        (deviation <= tolerances.curve).then_some(Step::Closes(Piece {
+            node: end,
+            length,
+            deviation,
+        }))
     }
 
     /// Pulls parameters beyond a border back onto it.
@@ -321,6 +357,29 @@ impl March<'_> {
             }
         }
         Crossing::Failed
+    }
+}
+
+/// A branch of nodes that are known and those of a run that follows them.
+fn branch(
+    mut nodes: Vec<Node>,
+    mut between: Vec<f64>,
+    deviation: f64,
+    run: Run,
+    ends: [End; 2],
+) -> Branch {
+    nodes.extend(run.nodes);
+    between.extend(run.lengths);
+    let mut lengths = Vec::with_capacity(nodes.len());
+    lengths.push(0.0);
+    for (i, length) in between.iter().enumerate() {
+        lengths.push(lengths[i] + length);
+    }
+    Branch {
+        nodes,
+        lengths,
+        deviation: deviation.max(run.deviation),
+        ends,
     }
 }
 

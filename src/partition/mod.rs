@@ -17,18 +17,25 @@
 //! each other, a count in [`Faults`] is not zero and the result must not be used.
 
 mod arcs;
+mod bernstein;
 mod bounds;
+mod boxes;
+mod builder;
 mod check;
+mod cone;
 mod crossings;
 mod faces;
+mod facet;
 mod hermite;
 mod landing;
 mod march;
 mod pair;
 mod patch;
 mod pierce;
+mod polygon;
 mod quadrature;
 mod region;
+mod samples;
 mod seeds;
 mod sheet;
 mod solids;
@@ -186,7 +193,7 @@ pub fn partition(
         tolerances,
     };
     let solids = parts.solids(&mut faults);
-    let topology = topology::Topology::new(&parts, solids);
+    let topology = Topology::new(&parts, solids);
     clock.lap("solids");
     let inside = |crossing: &&crossings::Crossing| {
         crossing

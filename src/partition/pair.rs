@@ -153,12 +153,12 @@ impl Pair<'_> {
         })
     }
 
-    /// Farthest of a piece from both sheets, at some samples.
-    pub(super) fn deviation(&self, a: &Node, b: &Node, length: f64, samples: usize) -> f64 {
+    /// Farthest of a piece from both sheets, at some fractions of its length.
+    pub(super) fn deviation(&self, a: &Node, b: &Node, length: f64, fractions: &[f64]) -> f64 {
         let points = super::hermite::control(a, b, length);
         let mut most: f64 = 0.0;
-        for k in 1..=samples {
-            let value = super::hermite::at(&points, k as f64 / (samples + 1) as f64);
+        for fraction in fractions {
+            let value = super::hermite::at(&points, *fraction);
             let p = super::hermite::space(&value);
             for side in 0..2 {
                 let q = super::hermite::on_sheet(&value, side);

@@ -1,33 +1,23 @@
-//! Bézier patches: evaluation, halving, and bounds of where a patch is and where its normals point.
+//! Bézier patches: halving, and bounds of where a patch is and where its normals point.
 //!
 //! Degrees up to 7 each way, rational or not. The net is homogeneous, (w x, w y, w z, w), u-major. A
 //! patch may be evaluated outside of its own parameters: its polynomial goes on.
+
+mod evaluate;
 
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
+use super::cone::cone;
+
+pub(super) use evaluate::{Jet, Slice};
 
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
 
-/// A point of a surface with its first and second derivatives.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Jet {
-    pub(super) p: DVec3,
-    pub(super) u: DVec3,
-    pub(super) v: DVec3,
-    pub(super) uu: DVec3,
-    pub(super) uv: DVec3,
-    pub(super) vv: DVec3,
-}
-
-impl Jet {
-    /// The normal `S_u × S_v`, not of unit length.
-    pub(super) fn normal(&self) -> DVec3 {
-        self.u.cross(self.v)
-    }
-}
+/// Most legs along v of patches whose normals' slopes are asked for: of 4 × 4 control points there are 12.
+const LANES: usize = 12;
 
 /// One of the two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,95 +26,22 @@ pub(super) enum Along {
     V,
 }
 
+/// Homogeneous control points.
+type Net = SmallVec<[DVec4; 16]>;
+
 /// A Bézier patch over a rectangle of its surface's parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     rows: usize,
     columns: usize,
     rational: bool,
-    net: SmallVec<[DVec4; 16]>,
+    net: Net,
     pub(super) u: [f64; 2],
     pub(super) v: [f64; 2],
     pub(super) bounds: Bounds,
     /// The direction across which it is likely to be thin, and its range along it.
     thin: DVec3,
     slab: [f64; 2],
-}
-
-/// Values, first and second derivatives of the Bernstein polynomials of one degree on [0, 1].
-#[derive(Clone, Copy)]
-struct Basis {
-    value: [f64; ORDER],
-    first: [f64; ORDER],
-    second: [f64; ORDER],
-}
-
-impl Basis {
-    fn new(order: usize, s: f64) -> Self {
-        let mut all = Self {
-            value: [0.0; ORDER],
-            first: [0.0; ORDER],
-            second: [0.0; ORDER],
-        };
-        let r = 1.0 - s;
-        match order {
-            2 => {
-                all.value[0] = r;
-                all.value[1] = s;
-                all.first[0] = -1.0;
-                all.first[1] = 1.0;
-            }
-            4 => {
-                all.value[..4].copy_from_slice(&[
-                    r * r * r,
-                    3.0 * r * r * s,
-                    3.0 * r * s * s,
-                    s * s * s,
-                ]);
-                all.first[..4].copy_from_slice(&[
-                    -3.0 * r * r,
-                    3.0 * r * (r - 2.0 * s),
-                    3.0 * s * (2.0 * r - s),
-                    3.0 * s * s,
-                ]);
-                all.second[..4].copy_from_slice(&[
-                    6.0 * r,
-                    6.0 * (s - 2.0 * r),
-                    6.0 * (r - 2.0 * s),
-                    6.0 * s,
-                ]);
-            }
-            _ => all.raise(order, s),
-        }
-        all
-    }
-
-    /// By raising the degree; derivatives are differences of the polynomials one and two degrees lower.
-    fn raise(&mut self, order: usize, s: f64) {
-        let before = |of: &[f64; ORDER], i: usize, back: usize| {
-            if i >= back { of[i - back] } else { 0.0 }
-        };
-        self.value[0] = 1.0;
-        for degree in 1..order {
-            let lower = self.value;
-            if degree + 2 == order {
-                // `lower` has degree p − 2 here.
-                let factor = ((order - 1) * (order - 2)) as f64;
-                for i in 0..order {
-                    let sum = before(&lower, i, 2) - 2.0 * before(&lower, i, 1) + lower[i];
-                    self.second[i] = factor * sum;
-                }
-            }
-            if degree + 1 == order {
-                for i in 0..order {
-                    self.first[i] = (order - 1) as f64 * (before(&lower, i, 1) - lower[i]);
-                }
-            }
-            for i in (0..=degree).rev() {
-                self.value[i] = (1.0 - s) * lower[i] + s * before(&lower, i, 1);
-            }
-        }
-    }
 }
 
 impl Patch {
@@ -137,7 +54,7 @@ impl Patch {
         v: [f64; 2],
     ) -> Self {
         let rational = weights.iter().any(|w| *w != 1.0);
-        let net: SmallVec<[DVec4; 16]> = net
+        let net: Net = net
             .iter()
             .zip(weights)
             .map(|(p, w)| (*p * *w).extend(*w))
@@ -146,10 +63,10 @@ impl Patch {
             rows,
             columns: net.len() / rows,
             rational,
+            bounds: Bounds::of(points(&net, rational)),
             net,
             u,
             v,
-            bounds: Bounds::EMPTY,
             thin: DVec3::ZERO,
             slab: [0.0; 2],
         };
@@ -157,9 +74,8 @@ impl Patch {
         patch
     }
 
-    /// Finds what is kept about where it is.
+    /// Finds what it is thin across.
     fn measure(&mut self) {
-        self.bounds = Bounds::of(self.points());
         self.thin = self.thin_direction();
         self.slab = self.range_along(self.thin);
     }
@@ -176,13 +92,6 @@ impl Patch {
         (self.thin, self.slab)
     }
 
-    fn points(&self) -> impl Iterator<Item = DVec3> {
-        let rational = self.rational;
-        self.net
-            .iter()
-            .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
-    }
-
     fn control(&self, i: usize, j: usize) -> DVec3 {
         let h = self.net[i * self.columns + j];
         if self.rational {
@@ -197,107 +106,6 @@ impl Patch {
         [0.5 * (self.u[0] + self.u[1]), 0.5 * (self.v[0] + self.v[1])]
     }
 
-    /// Point and derivatives in the surface's parameters.
-    pub(super) fn jet(&self, u: f64, v: f64) -> Jet {
-        let (du, dv) = (1.0 / (self.u[1] - self.u[0]), 1.0 / (self.v[1] - self.v[0]));
-        let in_u = Basis::new(self.rows, (u - self.u[0]) * du);
-        let in_v = Basis::new(self.columns, (v - self.v[0]) * dv);
-        let mut h = [DVec4::ZERO; 6];
-        for (i, row) in self.net.chunks_exact(self.columns).enumerate() {
-            let mut own = [DVec4::ZERO; 3];
-            for (j, point) in row.iter().enumerate() {
-                own[0] += in_v.value[j] * *point;
-                own[1] += in_v.first[j] * *point;
-                own[2] += in_v.second[j] * *point;
-            }
-            h[0] += in_u.value[i] * own[0];
-            h[1] += in_u.first[i] * own[0];
-            h[2] += in_u.value[i] * own[1];
-            h[3] += in_u.second[i] * own[0];
-            h[4] += in_u.first[i] * own[1];
-            h[5] += in_u.value[i] * own[2];
-        }
-        let mut jet = Jet {
-            p: h[0].xyz(),
-            u: h[1].xyz(),
-            v: h[2].xyz(),
-            uu: h[3].xyz(),
-            uv: h[4].xyz(),
-            vv: h[5].xyz(),
-        };
-        if self.rational {
-            // The quotient rule (PT97 A4.4).
-            let w = 1.0 / h[0].w;
-            jet.p *= w;
-            jet.u = (jet.u - h[1].w * jet.p) * w;
-            jet.v = (jet.v - h[2].w * jet.p) * w;
-            jet.uu = (jet.uu - 2.0 * h[1].w * jet.u - h[3].w * jet.p) * w;
-            jet.uv = (jet.uv - h[1].w * jet.v - h[2].w * jet.u - h[4].w * jet.p) * w;
-            jet.vv = (jet.vv - 2.0 * h[2].w * jet.v - h[5].w * jet.p) * w;
-        }
-        jet.u *= du;
-        jet.v *= dv;
-        jet.uu *= du * du;
-        jet.uv *= du * dv;
-        jet.vv *= dv * dv;
-        jet
-    }
-
-    /// Point and first derivatives only.
-    pub(super) fn first_jet(&self, u: f64, v: f64) -> (DVec3, DVec3, DVec3) {
-        let (du, dv) = (1.0 / (self.u[1] - self.u[0]), 1.0 / (self.v[1] - self.v[0]));
-        let in_u = Basis::new(self.rows, (u - self.u[0]) * du);
-        let in_v = Basis::new(self.columns, (v - self.v[0]) * dv);
-        let mut h = [DVec4::ZERO; 3];
-        for (i, row) in self.net.chunks_exact(self.columns).enumerate() {
-            let mut own = [DVec4::ZERO; 2];
-            for (j, point) in row.iter().enumerate() {
-                own[0] += in_v.value[j] * *point;
-                own[1] += in_v.first[j] * *point;
-            }
-            h[0] += in_u.value[i] * own[0];
-            h[1] += in_u.first[i] * own[0];
-            h[2] += in_u.value[i] * own[1];
-        }
-        let (mut p, mut pu, mut pv) = (h[0].xyz(), h[1].xyz(), h[2].xyz());
-        if self.rational {
-            let w = 1.0 / h[0].w;
-            p *= w;
-            pu = (pu - h[1].w * p) * w;
-            pv = (pv - h[2].w * p) * w;
-        }
-        (p, pu * du, pv * dv)
-    }
-
-    /// The control points of the curve at a fixed parameter, in the other direction, and of its derivative by the
-    /// fixed one, both homogeneous.
-    pub(super) fn slice(&self, fixed: Along, value: f64) -> Slice {
-        let (range, order, count) = match fixed {
-            Along::U => (self.u, self.rows, self.columns),
-            Along::V => (self.v, self.columns, self.rows),
-        };
-        let unit = 1.0 / (range[1] - range[0]);
-        let basis = Basis::new(order, (value - range[0]) * unit);
-        let mut slice = Slice {
-            points: [DVec4::ZERO; ORDER],
-            across: [DVec4::ZERO; ORDER],
-            count,
-            rational: self.rational,
-            range: if fixed == Along::U { self.v } else { self.u },
-        };
-        for k in 0..count {
-            for i in 0..order {
-                let h = match fixed {
-                    Along::U => self.net[i * self.columns + k],
-                    Along::V => self.net[k * self.columns + i],
-                };
-                slice.points[k] += basis.value[i] * h;
-                slice.across[k] += basis.first[i] * unit * h;
-            }
-        }
-        slice
-    }
-
     /// The direction in which its net is longer.
     pub(super) fn longer(&self) -> Along {
         let corner = |i: usize, j: usize| self.control(i * (self.rows - 1), j * (self.columns - 1));
@@ -310,36 +118,112 @@ impl Patch {
         }
     }
 
-    /// The two halves (de Casteljau).
-    pub(super) fn halves(&self, along: Along) -> [Self; 2] {
-        let (mut low, mut high) = (self.clone(), self.clone());
+    /// Those of its two halves (de Casteljau) whose boxes are wanted.
+    pub(super) fn halves(
+        &self,
+        along: Along,
+        wanted: impl Fn(&Bounds) -> bool,
+    ) -> [Option<Self>; 2] {
+        let [u, v] = self.middle();
+        let (u, v) = match along {
+            Along::U => ([[self.u[0], u], [u, self.u[1]]], [self.v; 2]),
+            Along::V => ([self.u; 2], [[self.v[0], v], [v, self.v[1]]]),
+        };
+        let half = |net: Net, u: [f64; 2], v: [f64; 2]| {
+            let bounds = Bounds::of(points(&net, self.rational));
+            wanted(&bounds).then(|| {
+                let mut patch = Self {
+                    net,
+                    u,
+                    v,
+                    bounds,
+                    ..*self
+                };
+                patch.measure();
+                patch
+            })
+        };
+        let [low, high] = self.half_nets(along);
+        [half(low, u[0], v[0]), half(high, u[1], v[1])]
+    }
+
+    fn half_nets(&self, along: Along) -> [Net; 2] {
         let (lines, degree, line_step, step) = match along {
             Along::U => (self.columns, self.rows - 1, 1, self.columns),
             Along::V => (self.rows, self.columns - 1, self.columns, 1),
         };
+        let mut low = Net::from_slice(&self.net);
+        let mut high = Net::from_slice(&self.net);
         for line in 0..lines {
             let at = |k: usize| line * line_step + k * step;
+            let mut work = [DVec4::ZERO; ORDER];
+            for (k, h) in work.iter_mut().take(degree + 1).enumerate() {
+                *h = self.net[at(k)];
+            }
             for round in 1..=degree {
                 for k in 0..=degree - round {
-                    high.net[at(k)] = 0.5 * (high.net[at(k)] + high.net[at(k + 1)]);
+                    work[k] = 0.5 * (work[k] + work[k + 1]);
                 }
-                low.net[at(round)] = high.net[at(0)];
+                low[at(round)] = work[0];
+                high[at(degree - round)] = work[degree - round];
             }
         }
-        let [u, v] = self.middle();
-        match along {
-            Along::U => {
-                low.u[1] = u;
-                high.u[0] = u;
-            }
-            Along::V => {
-                low.v[1] = v;
-                high.v[0] = v;
-            }
-        }
-        low.measure();
-        high.measure();
         [low, high]
+    }
+
+    /// The range of the slopes of its normals: how far they lean along a direction, against upright. `None` if some
+    /// may be level, and for rational patches.
+    ///
+    /// Tangents along u are sums of legs along u, those along v of legs along v, with positive factors; so normals
+    /// are such sums of the products of legs.
+    pub(super) fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
+        if self.rational {
+            return None;
+        }
+        let [legs_u, legs_v] = self.legs();
+        if legs_v.len() > LANES {
+            return None;
+        }
+        // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
+        let lanes: [[f64; LANES]; 3] = std::array::from_fn(|axis| {
+            std::array::from_fn(|k| legs_v[k.min(legs_v.len() - 1)][axis])
+        });
+        let used = legs_v.len().next_multiple_of(4).min(LANES);
+        let sign = legs_u[0].cross(legs_v[0]).dot(upright).signum();
+        let mut least = [f64::INFINITY; LANES];
+        let mut range = [[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]];
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        for a in legs_u {
+            let (lean, rise) = (along.cross(a) * sign, upright.cross(a) * sign);
+            for k in 0..used {
+                let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
+                let height = x * rise.x + y * rise.y + z * rise.z;
+                let slope = (x * lean.x + y * lean.y + z * lean.z) / height;
+                least[k] = smaller(height, least[k]);
+                range[0][k] = smaller(slope, range[0][k]);
+                range[1][k] = -smaller(-slope, -range[1][k]);
+            }
+        }
+        let all = |lanes: &[f64; LANES]| lanes.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = range[1].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        (all(&least) > 0.0).then(|| [all(&range[0]), high])
+    }
+
+    /// Steps between neighbouring control points, along u and along v.
+    fn legs(&self) -> [SmallVec<[DVec3; 16]>; 2] {
+        let points: SmallVec<[DVec3; 16]> = points(&self.net, self.rational).collect();
+        let leg = |(from, to): (&DVec3, &DVec3)| *to - *from;
+        [
+            points
+                .iter()
+                .zip(&points[self.columns..])
+                .map(leg)
+                .collect(),
+            points
+                .chunks_exact(self.columns)
+                .flat_map(|row| row.iter().zip(&row[1..]).map(leg))
+                .collect(),
+        ]
     }
 
     fn thin_direction(&self) -> DVec3 {
@@ -351,11 +235,13 @@ impl Patch {
 
     /// The range of its control points along a direction.
     fn range_along(&self, direction: DVec3) -> [f64; 2] {
-        self.points()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+        points(&self.net, self.rational).fold(
+            [f64::INFINITY, f64::NEG_INFINITY],
+            |[low, high], p| {
                 let d = p.dot(direction);
                 [low.min(d), high.max(d)]
-            })
+            },
+        )
     }
 
     /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
@@ -366,10 +252,9 @@ impl Patch {
     /// hodographs by positive functions, and their legs still bound the directions well enough here:
     /// cones only decide how deep to look.
     pub(super) fn normals(&self) -> Option<(DVec3, f64)> {
-        let legs_u = (0..self.rows - 1).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
-        let legs_v = (0..self.rows).flat_map(|i| (0..self.columns - 1).map(move |j| (i, j)));
-        let (a, alpha) = cone(legs_u.map(|(i, j)| self.control(i + 1, j) - self.control(i, j)))?;
-        let (b, beta) = cone(legs_v.map(|(i, j)| self.control(i, j + 1) - self.control(i, j)))?;
+        let [legs_u, legs_v] = self.legs();
+        let (a, alpha) = cone(&legs_u)?;
+        let (b, beta) = cone(&legs_v)?;
         let cross = a.cross(b);
         let gamma = cross.length();
         let lean = (alpha + beta + alpha * beta) / gamma;
@@ -377,54 +262,44 @@ impl Patch {
     }
 }
 
-/// A curve of a patch at a fixed parameter, with its derivative across.
-pub(super) struct Slice {
-    points: [DVec4; ORDER],
-    across: [DVec4; ORDER],
-    count: usize,
-    rational: bool,
-    range: [f64; 2],
+fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {
+    net.iter()
+        .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
 }
 
-impl Slice {
-    /// The point, the derivative along the curve, and the derivative by the fixed parameter.
-    pub(super) fn jet(&self, x: f64) -> (DVec3, DVec3, DVec3) {
-        let unit = 1.0 / (self.range[1] - self.range[0]);
-        let basis = Basis::new(self.count, (x - self.range[0]) * unit);
-        let mut h = [DVec4::ZERO; 3];
-        for k in 0..self.count {
-            h[0] += basis.value[k] * self.points[k];
-            h[1] += basis.first[k] * self.points[k];
-            h[2] += basis.value[k] * self.across[k];
-        }
-        let (mut p, mut along, mut across) = (h[0].xyz(), h[1].xyz(), h[2].xyz());
-        if self.rational {
-            let w = 1.0 / h[0].w;
-            p *= w;
-            along = (along - h[1].w * p) * w;
-            across = (across - h[2].w * p) * w;
-        }
-        (p, along * unit, across)
-    }
-}
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+mod tests {
+    use super::*;
 
-/// A cone that holds some vectors: unit axis and sine of the half-angle. Vanishing vectors say nothing.
-pub(super) fn cone(vectors: impl Iterator<Item = DVec3> + Clone) -> Option<(DVec3, f64)> {
-    let axis = vectors
-        .clone()
-        .fold(DVec3::ZERO, |sum, v| sum + v)
-        .try_normalize()?;
-    let mut sine: f64 = 0.0;
-    for v in vectors {
-        let length = v.length();
-        if length == 0.0 {
-            continue;
+    #[test]
+    fn slopes_of_sampled_normals_lie_within_the_bounds_from_legs() {
+        // A bowl that is twisted, and rougher along u.
+        let net: Vec<DVec3> = (0..16)
+            .map(|k| (f64::from(k / 4) - 1.5, f64::from(k % 4) - 1.5))
+            .map(|(x, y)| DVec3::new(x, y, 0.2 * x * x + 0.05 * y * y + 0.03 * x * y))
+            .collect();
+        let patch = Patch::new(4, &net, &[1.0; 16], [0.0, 1.0], [0.0, 1.0]);
+        for along in [DVec3::X, DVec3::Y, DVec3::new(-1.0, 0.4, 0.1)] {
+            let [low, high] = patch.slopes(along, DVec3::Z).unwrap();
+            let mut sampled = [f64::INFINITY, f64::NEG_INFINITY];
+            for k in 0..=100 {
+                let (_, u, v) = patch.first_jet(f64::from(k / 10) / 10.0, f64::from(k % 11) / 10.0);
+                let normal = u.cross(v);
+                let slope = normal.dot(along) / normal.z;
+                assert!(low <= slope && slope <= high);
+                sampled = [sampled[0].min(slope), sampled[1].max(slope)];
+            }
+            // Bounds that say nothing would hold them too.
+            assert!(high - low < 2.0 * (sampled[1] - sampled[0]));
         }
-        let along = v.dot(axis);
-        if along <= 0.0 {
-            return None;
-        }
-        sine = sine.max((v - along * axis).length() / length);
     }
-    Some((axis, sine))
+
+    #[test]
+    fn a_patch_that_stands_upright_somewhere_has_no_slopes() {
+        let net =
+            [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
+        let patch = Patch::new(2, &net, &[1.0; 4], [0.0, 1.0], [0.0, 1.0]);
+        assert!(patch.slopes(DVec3::X, DVec3::Z).is_none());
+    }
 }

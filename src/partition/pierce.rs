@@ -4,8 +4,10 @@ use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
+use super::cone::cone;
+use super::facet::Facet;
 use super::pair::Tolerances;
-use super::patch::{Patch, cone};
+use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 use super::solve::solve;
 
@@ -95,7 +97,9 @@ impl Segment {
     }
 
     fn tangents(&self) -> Option<(DVec3, f64)> {
-        cone(self.places().zip(self.places().skip(1)).map(|(a, b)| b - a))
+        let places = self.places().zip(self.places().skip(1));
+        let legs: SmallVec<[DVec3; 8]> = places.map(|(a, b)| b - a).collect();
+        cone(&legs)
     }
 
     fn range_along(&self, direction: DVec3) -> [f64; 2] {
@@ -162,7 +166,7 @@ impl<'a> Piercing<'a> {
             return;
         }
         match node.kind {
-            NodeKind::Leaf(patch) => self.pieces(segment, self.sheet.patch(patch)),
+            NodeKind::Leaf(patch) => self.pieces(segment, &self.sheet.facet(patch)),
             NodeKind::Pair(a, b) => {
                 self.nodes(a, segment);
                 self.nodes(b, segment);
@@ -170,12 +174,13 @@ impl<'a> Piercing<'a> {
         }
     }
 
-    fn pieces(&mut self, segment: &Segment, patch: &Patch) {
+    fn pieces(&mut self, segment: &Segment, facet: &Facet<'_>) {
         self.halvings += 1;
         if self.halvings > MOST {
             self.undecided += 1;
             return;
         }
+        let patch = &facet.patch;
         if !segment.bounds.meets(&patch.bounds) || !segment.bounds.meets(&self.clip) {
             return;
         }
@@ -185,9 +190,8 @@ impl<'a> Piercing<'a> {
             return;
         }
         let tangents = segment.tangents();
-        let normals = patch.normals();
+        let (normals, lean) = (facet.normals, facet.lean());
         let bend = tangents.map_or(f64::INFINITY, |t| t.1);
-        let lean = normals.map_or(f64::INFINITY, |n| n.1);
         if let (Some((along, bend)), Some((normal, lean))) = (tangents, normals)
             && bend < STRAIGHT
             && lean < STRAIGHT
@@ -214,10 +218,10 @@ impl<'a> Piercing<'a> {
         };
         if halve_segment && size_s >= least || size_p < least {
             for half in segment.halves() {
-                self.pieces(&half, patch);
+                self.pieces(&half, facet);
             }
         } else {
-            for half in patch.halves(patch.longer()) {
+            for half in facet.halves(|bounds| bounds.meets(&segment.bounds), |_| true) {
                 self.pieces(segment, &half);
             }
         }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::arcs::Arc;
 use super::faces::{Face, HalfEdge};
-use super::patch::Along;
+use super::patch::{Along, ORDER, Slice};
 use super::sheet::Sheet;
 use super::tracks::{Geometry, Source, Tracks};
 
@@ -306,24 +306,37 @@ impl<'a> Across<'a> {
         let mut sum = Integral::default();
         let mut start = low;
         for end in inner.chain([high]) {
-            let slice = self
-                .sheet
-                .slice(fixed, place[1 - self.axis], 0.5 * (start + end));
-            let own = integrate(self.rule, start, end, |x| {
-                let (p, along, other) = slice.jet(x);
-                let normal = if self.axis == 0 {
-                    along.cross(other)
-                } else {
-                    other.cross(along)
-                };
-                Integral {
-                    area: normal.length(),
-                    flux: (p - self.middle).dot(normal) / 3.0,
-                }
-            });
+            let mut inside = place;
+            inside[self.axis] = 0.5 * (start + end);
+            let patch = self.sheet.patch_at(inside.x, inside.y);
+            let own = match patch.count(fixed) {
+                2 => self.span(&patch.slice::<2>(fixed, place[1 - self.axis]), start, end),
+                4 => self.span(&patch.slice::<4>(fixed, place[1 - self.axis]), start, end),
+                _ => self.span(
+                    &patch.slice::<ORDER>(fixed, place[1 - self.axis]),
+                    start,
+                    end,
+                ),
+            };
             sum = sum.plus(own);
             start = end;
         }
         sum.times(if to < from { -factor } else { factor })
+    }
+
+    /// The integral along a part of a patch's curve.
+    fn span<const N: usize>(&self, slice: &Slice<N>, start: f64, end: f64) -> Integral {
+        integrate(self.rule, start, end, |x| {
+            let (p, along, other) = slice.jet(x);
+            let normal = if self.axis == 0 {
+                along.cross(other)
+            } else {
+                other.cross(along)
+            };
+            Integral {
+                area: normal.length(),
+                flux: (p - self.middle).dot(normal) / 3.0,
+            }
+        })
     }
 }

@@ -173,7 +173,17 @@ pub(super) struct Regions {
 /// How far apart sides may be that are the same, as a fraction of the region's size.
 const CLOSURE: f64 = 1e-9;
 
-struct Made {
+/// How the sheets of a region join.
+#[derive(Default)]
+struct Joints {
+    edges: Vec<Edge>,
+    poles: Vec<Pole>,
+    /// Sides that join no other.
+    open: Vec<(usize, Border, Curve)>,
+}
+
+/// A region as it is given.
+struct Shape {
     sheets: Vec<Surface>,
     inside: Inside,
     /// Whether sides may join no other.
@@ -199,7 +209,7 @@ impl Regions {
         let made = regions
             .into_par_iter()
             .enumerate()
-            .map(|(index, region)| make(index, region, &domain))
+            .map(|(index, region)| sheets(index, shape(index, region, &domain)?))
             .collect::<Result<Vec<_>, _>>()?;
         let mut all = Self {
             sheets: Vec::new(),
@@ -213,15 +223,10 @@ impl Regions {
                 .collect(),
         };
         let mut own = Vec::new();
-        for (index, region) in made.into_iter().enumerate() {
+        for region in made {
             let first = all.sheets.len();
             let mut bounds = Bounds::EMPTY;
-            for surface in region.sheets {
-                let degrees = [surface.knots_u().degree(), surface.knots_v().degree()];
-                let sheet = Sheet::new(surface, index).ok_or(PartitionError::Degree {
-                    region: index,
-                    degrees,
-                })?;
+            for sheet in region.sheets {
                 bounds = bounds.and(*sheet.bounds());
                 all.sheets.push(sheet);
             }
@@ -230,9 +235,13 @@ impl Regions {
             own.push((first..all.sheets.len(), region.may_be_open));
         }
         let mut open_borders = Vec::new();
-        for (index, (own, may_be_open)) in own.into_iter().enumerate() {
-            let open = all.join(index, own);
-            match open.first() {
+        let joints: Vec<Joints> = own
+            .par_iter()
+            .enumerate()
+            .map(|(index, own)| all.joints(index, own.0.clone()))
+            .collect();
+        for (index, (own, (_, may_be_open))) in joints.into_iter().zip(own).enumerate() {
+            match own.open.first() {
                 Some((_, _, curve)) if !may_be_open => {
                     return Err(PartitionError::Open {
                         region: index,
@@ -242,10 +251,12 @@ impl Regions {
                 }
                 _ => {}
             }
-            for (sheet, border, _) in &open {
+            all.edges.extend(own.edges);
+            all.poles.extend(own.poles);
+            for (sheet, border, _) in &own.open {
                 all.sheets[*sheet].open.push(*border);
             }
-            open_borders.extend(open);
+            open_borders.extend(own.open);
         }
         all.orient()?;
         for (sheet, border, curve) in open_borders {
@@ -303,9 +314,9 @@ impl Regions {
     }
 
     /// Pairs the sides of a region's sheets; what is left over is open.
-    fn join(&mut self, region: usize, own: std::ops::Range<usize>) -> Vec<(usize, Border, Curve)> {
+    fn joints(&self, region: usize, own: std::ops::Range<usize>) -> Joints {
         let tolerance = CLOSURE * self.bounds[region].diagonal();
-        let mut open: Vec<(usize, Border, Curve)> = Vec::new();
+        let mut joints = Joints::default();
         for sheet in own {
             for border in BORDERS {
                 let surface = &self.sheets[sheet].surface;
@@ -318,50 +329,43 @@ impl Regions {
                 let bounds = Bounds::of(curve.points().iter().copied());
                 if bounds.diagonal() <= tolerance {
                     let point = curve.points()[0];
-                    self.poles.push(Pole {
+                    joints.poles.push(Pole {
                         sheet,
                         border,
                         point,
                     });
                     continue;
                 }
-                let partner = open
+                let partner = joints
+                    .open
                     .iter()
-                    .position(|(_, _, other)| other.proportion(&curve, tolerance).is_some());
-                match partner {
-                    None => open.push((sheet, border, curve)),
-                    Some(at) => {
-                        let (first, first_border, first_curve) = open.remove(at);
-                        let Some((shift, scale)) = first_curve.proportion(&curve, tolerance) else {
-                            continue;
-                        };
-                        let sides = [
-                            Side {
-                                sheet: first,
-                                border: first_border,
-                                shift: 0.0,
-                                scale: 1.0,
-                            },
-                            Side {
-                                sheet,
-                                border,
-                                shift,
-                                scale,
-                            },
-                        ];
-                        self.edges.push(Edge {
-                            segments: segments(&first_curve),
-                            bounds,
-                            curve: first_curve,
-                            sides,
-                            landing: None,
-                            region,
-                        });
-                    }
-                }
+                    .enumerate()
+                    .find_map(|(at, other)| Some((at, other.2.proportion(&curve, tolerance)?)));
+                let Some((at, (shift, scale))) = partner else {
+                    joints.open.push((sheet, border, curve));
+                    continue;
+                };
+                let (first, first_border, curve) = joints.open.remove(at);
+                let side = |sheet: usize, border: Border, shift: f64, scale: f64| Side {
+                    sheet,
+                    border,
+                    shift,
+                    scale,
+                };
+                joints.edges.push(Edge {
+                    segments: segments(&curve),
+                    bounds,
+                    curve,
+                    sides: [
+                        side(first, first_border, 0.0, 1.0),
+                        side(sheet, border, shift, scale),
+                    ],
+                    landing: None,
+                    region,
+                });
             }
         }
-        open
+        joints
     }
 
     /// Finds out on which side of each sheet its region lies: for one sheet of each region by points beside it,
@@ -418,25 +422,50 @@ impl Regions {
     }
 }
 
-fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, PartitionError> {
+struct Made {
+    sheets: Vec<Sheet>,
+    inside: Inside,
+    may_be_open: bool,
+}
+
+fn sheets(index: usize, shape: Shape) -> Result<Made, PartitionError> {
+    let sheet = |surface: Surface| {
+        let degrees = [surface.knots_u().degree(), surface.knots_v().degree()];
+        Sheet::new(surface, index).ok_or(PartitionError::Degree {
+            region: index,
+            degrees,
+        })
+    };
+    Ok(Made {
+        sheets: shape
+            .sheets
+            .into_iter()
+            .map(sheet)
+            .collect::<Result<_, _>>()?,
+        inside: shape.inside,
+        may_be_open: shape.may_be_open,
+    })
+}
+
+fn shape(index: usize, region: Region, domain: &Bounds) -> Result<Shape, PartitionError> {
     match region {
         Region::Shell(sheets) => {
             let shell = Enclosure::new(sheets.clone()).map_err(|source| PartitionError::Shell {
                 region: index,
                 source,
             })?;
-            Ok(Made {
+            Ok(Shape {
                 sheets,
                 inside: Inside::Shell(Arc::new(shell)),
                 may_be_open: false,
             })
         }
-        Region::PartOf { surfaces, shell } => Ok(Made {
+        Region::PartOf { surfaces, shell } => Ok(Shape {
             sheets: surfaces,
             inside: Inside::Shell(shell),
             may_be_open: true,
         }),
-        Region::Side { surfaces, inside } => Ok(Made {
+        Region::Side { surfaces, inside } => Ok(Shape {
             sheets: surfaces,
             inside: Inside::Side(inside),
             may_be_open: true,
@@ -464,7 +493,7 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
             .map(|corners| rectangle(corners.map(corner)))
             .collect::<Result<_, _>>()
             .map_err(|()| PartitionError::NoDomain)?;
-            Ok(Made {
+            Ok(Shape {
                 sheets,
                 inside: Inside::Block(low, high),
                 may_be_open: false,
@@ -485,7 +514,7 @@ fn make(index: usize, region: Region, domain: &Bounds) -> Result<Made, Partition
                 at(x[1], y[1]),
             ];
             let sheet = rectangle(corners).map_err(|()| PartitionError::NoDomain)?;
-            Ok(Made {
+            Ok(Shape {
                 sheets: vec![sheet],
                 inside: Inside::Above(level),
                 may_be_open: true,

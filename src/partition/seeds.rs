@@ -1,11 +1,11 @@
 //! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
 //!
-//! A pair of patches whose cones of normals have no direction in common crosses in at most one simple arc
-//! (two arcs, or a loop, would need parallel normals somewhere), so one place on it is enough.
-
-use std::borrow::Cow;
+//! A pair of patches whose normals have no direction in common crosses in at most one simple arc (two arcs, or a
+//! loop, would need parallel normals somewhere), so one place on it is enough. An attempt to land on it that fails says
+//! nothing: the arc may be far from where it is looked for, so the halves are asked.
 
 use super::bounds::Bounds;
+use super::facet::Facet;
 use super::hermite::{Branch, Node};
 use super::pair::{Closing, Pair};
 use super::patch::Patch;
@@ -21,22 +21,6 @@ const STEEP: f64 = 0.1;
 const FLAT: f64 = 0.35;
 /// While patches are halved their sizes are kept within this factor.
 const RATIO: f64 = 4.0;
-
-struct Piece<'a> {
-    patch: Cow<'a, Patch>,
-    normals: Option<(glam::DVec3, f64)>,
-}
-
-impl<'a> Piece<'a> {
-    fn new(patch: Cow<'a, Patch>) -> Self {
-        let normals = patch.normals();
-        Self { patch, normals }
-    }
-
-    fn lean(&self) -> f64 {
-        self.normals.map_or(f64::INFINITY, |normals| normals.1)
-    }
-}
 
 /// Looks for places where two sheets cross, and hands each to `found`, which returns the branch through it.
 pub(super) struct Search<'a, F> {
@@ -75,9 +59,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
-                let (p, q) = (a.patch(p), b.patch(q));
-                if !apart(p, q, self.slack()) {
-                    self.patches(&Piece::new(Cow::Borrowed(p)), &Piece::new(Cow::Borrowed(q)));
+                if !apart(a.patch(p), b.patch(q), self.slack()) {
+                    self.patches(&a.facet(p), &b.facet(q));
                 }
             }
             (NodeKind::Pair(first, second), NodeKind::Leaf(_)) => {
@@ -100,24 +83,30 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    fn patches(&mut self, a: &Piece<'_>, b: &Piece<'_>) {
+    fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
         if self.halvings > MOST {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
+        let clip = self.clip;
+        let flat = a.lean() < FLAT && b.lean() < FLAT;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
-        if cross_once(a, b) {
-            // Where the curve passes far from both middles an attempt may miss it: its halves are asked.
-            if is_small || self.land(a, b) {
+        if flat && a.is_askew(b) {
+            if is_small || self.land(a, b, |_| true) {
                 return;
             }
-        } else if is_small {
-            if !self.land(a, b) && !self.passes_by(a, b) {
-                self.undecided += 1;
+        } else {
+            if flat && a.leans_from(b) && self.land(a, b, |node| clip.holds(node.point())) {
+                return;
             }
-            return;
+            if is_small {
+                if !self.land(a, b, |_| true) && !self.passes_by(a, b) {
+                    self.undecided += 1;
+                }
+                return;
+            }
         }
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
         let too_small = size_a < least || size_b < least;
@@ -126,18 +115,13 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         } else {
             a.lean() > b.lean()
         };
-        let halved = if first { a } else { b };
-        for half in halved.patch.halves(halved.patch.longer()) {
-            let other = if first { &b.patch } else { &a.patch };
-            if !half.bounds.grown(self.slack()).meets(&other.bounds)
-                || !self.clip.meets(&half.bounds)
-            {
-                continue;
-            }
-            if apart(&half, other, self.slack()) {
-                continue;
-            }
-            let half = Piece::new(Cow::Owned(half));
+        let (halved, other) = if first { (a, b) } else { (b, a) };
+        let slack = self.slack();
+        let halves = halved.halves(
+            |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
+            |half| !apart(half, &other.patch, slack),
+        );
+        for half in halves {
             if first {
                 self.patches(&half, b);
             } else {
@@ -146,8 +130,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    /// Tries to land on the curve between two patches. Whether there is one, known or new.
-    fn land(&mut self, a: &Piece<'_>, b: &Piece<'_>) -> bool {
+    /// Tries to land on the curve between two patches. Whether there is one, known, or new and wanted.
+    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>, wanted: impl Fn(&Node) -> bool) -> bool {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let within = |q: &[f64; 4]| {
             (0..4).all(|i| {
@@ -189,6 +173,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if self.is_traced(&node) {
             return true;
         }
+        if !wanted(&node) {
+            return false;
+        }
         match (self.found)(node) {
             Some(branch) => self.branches.push(branch),
             // A point of a curve that cannot be followed.
@@ -199,7 +186,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
     /// tell little about where a place is.
-    fn passes_by(&self, a: &Piece<'_>, b: &Piece<'_>) -> bool {
+    fn passes_by(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
         let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
         let mut q = [u, v, s, t];
         let Some(node) = self.pair.node(q, None) else {
@@ -235,14 +222,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     pub(super) fn gave_up(&self) -> bool {
         self.halvings > MOST
     }
-}
-
-/// Whether two patches are so flat, and at such an angle, that they cross in one simple arc if at all.
-fn cross_once(a: &Piece<'_>, b: &Piece<'_>) -> bool {
-    let (Some((axis_a, lean_a)), Some((axis_b, lean_b))) = (a.normals, b.normals) else {
-        return false;
-    };
-    lean_a < FLAT && lean_b < FLAT && axis_a.cross(axis_b).length() > lean_a + lean_b
 }
 
 /// About where a nearly flat patch is nearest to a point.

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::bounds::Bounds;
-use super::patch::{Along, Jet, ORDER, Patch, Slice};
+use super::facet::Facet;
+use super::patch::{Jet, ORDER, Patch};
 use crate::nurbs::Surface;
 
 /// A surface that bounds a region.
@@ -24,6 +25,8 @@ pub(super) struct Sheet {
     pub(super) knots: [Vec<f64>; 2],
     /// u-major.
     patches: Vec<Patch>,
+    /// Cones that hold their normals.
+    normals: Vec<Option<(DVec3, f64)>>,
     tree: Vec<Node>,
 }
 
@@ -104,6 +107,7 @@ impl Sheet {
             lands_on: Vec::new(),
             plane: None,
             knots,
+            normals: patches.iter().map(Patch::normals).collect(),
             patches,
             tree: Vec::new(),
         };
@@ -166,6 +170,11 @@ impl Sheet {
         &self.patches[at]
     }
 
+    /// A patch with its normals.
+    pub(super) fn facet(&self, at: usize) -> Facet<'_> {
+        Facet::whole(&self.patches[at], self.normals[at])
+    }
+
     pub(super) fn patches(&self) -> &[Patch] {
         &self.patches
     }
@@ -200,17 +209,9 @@ impl Sheet {
         inner.partition_point(|knot| *knot <= value)
     }
 
-    fn patch_at(&self, u: f64, v: f64) -> &Patch {
+    /// The patch that holds a place, or is nearest to it.
+    pub(super) fn patch_at(&self, u: f64, v: f64) -> &Patch {
         &self.patches[self.span(0, u) * (self.knots[1].len() - 1) + self.span(1, v)]
-    }
-
-    /// The curve at a fixed parameter, over the span of the other one that holds `other`.
-    pub(super) fn slice(&self, fixed: Along, value: f64, other: f64) -> Slice {
-        let (u, v) = match fixed {
-            Along::U => (value, other),
-            Along::V => (other, value),
-        };
-        self.patch_at(u, v).slice(fixed, value)
     }
 
     /// Point and derivatives; beyond the borders the polynomial at the border goes on.
@@ -224,7 +225,7 @@ impl Sheet {
     }
 
     pub(super) fn point(&self, u: f64, v: f64) -> DVec3 {
-        self.first_jet(u, v).0
+        self.patch_at(u, v).point(u, v)
     }
 
     /// Whether parameters lie on the sheet.

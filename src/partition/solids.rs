@@ -8,9 +8,10 @@ use super::Label;
 use super::arcs::Arc;
 use super::bounds::Bounds;
 use super::check::Faults;
-use super::faces::{Face, encloses};
+use super::faces::Face;
 use super::pair::Tolerances;
 use super::pierce::{Piercing, Segment};
+use super::polygon::encloses;
 use super::quadrature::Integral;
 use super::tracks::{Geometry, Tracks};
 

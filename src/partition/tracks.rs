@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::check::Faults;
 use super::crossings::{Crossings, MATCH};
-use super::hermite::{self, End};
+use super::hermite::End;
 use super::pair::Tolerances;
 use super::region::Regions;
 
@@ -55,7 +55,7 @@ impl Geometry<'_> {
     pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
         match source {
             Source::Edge(edge) => self.edge(edge, t).0,
-            Source::Crossing(at) => hermite::space(&self.crossings.curves[at].branch.value(t)),
+            Source::Crossing(at) => self.crossings.curves[at].branch.in_space(t)[0],
             Source::Pole(at) => self.regions.poles[at].point,
         }
     }
@@ -70,11 +70,8 @@ impl Geometry<'_> {
         match source {
             Source::Edge(edge) => self.regions.edges[edge].on_sheet(side, sheets, t),
             Source::Crossing(at) => {
-                let [value, slope] = self.crossings.curves[at].branch.both(t);
-                (
-                    hermite::on_sheet(&value, side),
-                    hermite::on_sheet(&slope, side),
-                )
+                let [place, speed] = self.crossings.curves[at].branch.image(side, t);
+                (place, speed)
             }
             Source::Pole(at) => {
                 let pole = &self.regions.poles[at];
@@ -94,8 +91,8 @@ impl Geometry<'_> {
         match source {
             Source::Edge(edge) => self.edge(edge, t),
             Source::Crossing(at) => {
-                let [value, slope] = self.crossings.curves[at].branch.both(t);
-                (hermite::space(&value), hermite::space(&slope))
+                let [point, tangent] = self.crossings.curves[at].branch.in_space(t);
+                (point, tangent)
             }
             Source::Pole(at) => (self.regions.poles[at].point, DVec3::ZERO),
         }
@@ -103,31 +100,34 @@ impl Geometry<'_> {
 
     /// The ends of the smooth pieces of a part of a track.
     pub(super) fn stops(&self, source: Source, t: [f64; 2]) -> Vec<f64> {
-        let breaks = self.breaks(source).into_iter();
-        let inner = breaks.filter(|x| *x > t[0] && *x < t[1]);
-        std::iter::once(t[0]).chain(inner).chain([t[1]]).collect()
-    }
-
-    /// Parameters strictly between which a track is one smooth piece.
-    fn breaks(&self, source: Source) -> Vec<f64> {
+        let mut stops = vec![t[0]];
         match source {
-            Source::Edge(edge) => self.regions.edges[edge]
-                .segments
-                .iter()
-                .skip(1)
-                .map(|segment| segment.t[0])
-                .collect(),
+            Source::Edge(edge) => {
+                let starts = self.regions.edges[edge].segments.iter().skip(1);
+                let breaks = starts.map(|segment| segment.t[0]);
+                stops.extend(breaks.filter(|x| *x > t[0] && *x < t[1]));
+            }
             Source::Crossing(at) => {
-                let lengths = &self.crossings.curves[at].branch.lengths;
-                lengths[1..lengths.len() - 1].to_vec()
+                stops.extend_from_slice(between(&self.crossings.curves[at].branch.lengths, t));
             }
             Source::Pole(at) => {
                 let pole = &self.regions.poles[at];
-                let knots = &self.regions.sheets[pole.sheet].knots[1 - pole.border.axis()];
-                knots[1..knots.len() - 1].to_vec()
+                let running = 1 - pole.border.axis();
+                stops
+                    .extend_from_slice(between(&self.regions.sheets[pole.sheet].knots[running], t));
             }
         }
+        stops.push(t[1]);
+        stops
     }
+}
+
+/// Those of some sorted values, without the first and the last one, that lie strictly within a range.
+fn between(values: &[f64], range: [f64; 2]) -> &[f64] {
+    let inner = &values[1..values.len() - 1];
+    let from = inner.partition_point(|x| *x <= range[0]);
+    let to = inner.partition_point(|x| *x < range[1]);
+    &inner[from..to.max(from)]
 }
 
 impl Tracks {

@@ -271,8 +271,8 @@ fn grow(nodes: &mut Vec<Node>, parts: &mut [Part], first: usize) {
             let sum = part.low + part.high;
             if size.x >= size.y { sum.x } else { sum.y }
         };
-        parts.sort_by(|a, b| middle(a).total_cmp(&middle(b)));
         let half = parts.len() / 2;
+        parts.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)));
         let (left, right) = parts.split_at_mut(half);
         grow(nodes, left, first);
         grow(nodes, right, first + half);
