@@ -291,6 +291,8 @@ fn scattered_points_lie_on_their_horizon_within_the_tolerance() {
 fn parasequences_fill_the_units_between_undulating_horizons() {
     for seed in [1, 3] {
         let built = build("undulating", &[&format!("seed={seed}")], &[]);
+        // Curves of sheets that are nearly parallel meet in their common points, without a remedy.
+        assert!(built.assembly.failed.is_empty());
         let domain = &built.model.domain;
         let [base, top] = [&domain.base, &domain.top].map(|one| grid(one.as_ref().unwrap()));
         let flooding = grid(surface(&built.model, "flooding"));
