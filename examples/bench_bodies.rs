@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (Some(model), Some(count), Some(folder)) = (args.next(), args.next(), args.next()) else {
         return Err("a model file, the number of channels, and a folder".into());
     };
-    let (model, realisation) = belt::realise(&model, count.parse()?)?;
+    let (_, realisation) = belt::realise(&model, count.parse()?)?;
     let plan = AssemblyPlan::new(&realisation)?;
     std::fs::create_dir_all(&folder)?;
     bodies::write(folder.as_ref(), &plan)?;
