@@ -289,7 +289,7 @@ fn scattered_points_lie_on_their_horizon_within_the_tolerance() {
 
 #[test]
 fn parasequences_fill_the_units_between_undulating_horizons() {
-    for seed in [1, 3] {
+    for (seed, solids) in [(1, 13), (3, 13)] {
         let built = build("undulating", &[&format!("seed={seed}")], &[]);
         // Curves of sheets that are nearly parallel meet in their common points, without a remedy.
         assert!(built.assembly.failed.is_empty());
@@ -333,6 +333,7 @@ fn parasequences_fill_the_units_between_undulating_horizons() {
             );
             assert!(built.pieces(name) <= 1, "{name}");
         }
+        assert_eq!(built.assembly.measured.pieces.len(), solids);
         let large = owned.values().filter(|size| **size > 5000.0).count();
         let solids = &built.assembly.measured.pieces;
         assert_eq!(solids.iter().filter(|one| one.size > 5000.0).count(), large);
