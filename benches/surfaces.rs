@@ -40,7 +40,7 @@ fn surfaces(criterion: &mut Criterion) {
     });
     let realisation = realise();
     criterion.bench_function("channel belt: point evaluator made ready", |bench| {
-        bench.iter(|| Owners::new(black_box(&realisation), &model.domain).unwrap());
+        bench.iter(|| Owners::new(black_box(&realisation)).unwrap());
     });
 }
 
@@ -50,8 +50,8 @@ const POINTS: usize = 10_000;
 fn owner(criterion: &mut Criterion) {
     let model = belt();
     let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-    let owners = Owners::new(&realisation, &model.domain).unwrap();
-    let (low, high) = owners.domain();
+    let owners = Owners::new(&realisation).unwrap();
+    let (low, high) = (owners.extent().low(), owners.extent().high());
     let mut stream = Stream::new(1, "bench", "1", "points", 0);
     let points: Vec<DVec3> = (0..POINTS)
         .map(|_| low + (high - low) * DVec3::new(stream.unit(), stream.unit(), stream.unit()))

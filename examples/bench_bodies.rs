@@ -18,8 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (Some(model), Some(folder)) = (args.next(), args.next()) else {
         return Err("a model file, a folder, and settings".into());
     };
-    let (model, realisation) = bench::realise(&model, args)?;
-    let plan = AssemblyPlan::new(&realisation, &model.domain)?;
+    let (_, realisation) = bench::realise(&model, args)?;
+    let plan = AssemblyPlan::new(&realisation)?;
     std::fs::create_dir_all(&folder)?;
     bodies::write(folder.as_ref(), &plan)?;
     let (mut solids, mut sheets) = (0, 0);

@@ -59,8 +59,8 @@ mod timed {
             seed: model.seed,
         };
         let started = Instant::now();
-        let plan = AssemblyPlan::new(realisation, &model.domain)?;
-        let owners = Owners::new(realisation, &model.domain)?;
+        let plan = AssemblyPlan::new(realisation)?;
+        let owners = Owners::new(realisation)?;
         let made = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
         let seconds = started.elapsed().as_secs_f64();
         // Before the report and the file, which are in neither time nor memory.
@@ -101,7 +101,7 @@ mod timed {
             "faces": measured.faces,
             "edges": measured.edges,
             "crossing_pairs": made.crossing_bodies,
-            "volume_error": sum - (plan.high - plan.low).element_product(),
+            "volume_error": sum - (plan.high() - plan.low()).element_product(),
             "engine": made.engine.name(),
             "remedy": made.remedy,
             "failed_attempts": made.failed.len(),

@@ -14,8 +14,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut args = std::env::args().skip(1);
     let model = args.next().ok_or("a model file, and settings")?;
-    let (model, realisation) = bench::realise(&model, args)?;
-    let owners = Owners::new(&realisation, &model.domain)?;
+    let (_, realisation) = bench::realise(&model, args)?;
+    let owners = Owners::new(&realisation)?;
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     for line in std::io::stdin().lock().lines() {
         let line = line?;

@@ -28,8 +28,8 @@ struct Built {
 
 fn built(model: Model) -> Built {
     let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-    let owners = Owners::new(&realisation, &model.domain).unwrap();
-    let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
+    let owners = Owners::new(&realisation).unwrap();
+    let plan = AssemblyPlan::new(&realisation).unwrap();
     let options = Options {
         engine: Engine::Partition,
         child: None,
@@ -154,7 +154,8 @@ fn clinothems_have_the_sizes_that_their_formula_gives_for_any_direction() {
     let mut landings = 0;
     for azimuth in [0.0_f64, 90.0, 137.0, 180.0, 270.0, 320.0] {
         let made = built(from_text(&SET.replace("AZIMUTH", &azimuth.to_string())));
-        let (low, high) = made.owners.domain();
+        let extent = made.owners.extent();
+        let (low, high) = (extent.low(), extent.high());
         let dip = DVec2::new(azimuth.to_radians().sin(), azimuth.to_radians().cos());
         let half = (high - low).truncate() / 2.0;
         let up_dip = -(half.x * dip.x.abs() + half.y * dip.y.abs());

@@ -36,8 +36,8 @@ impl Built {
             .join(path);
         let model = Model::check(&Source::read(path).unwrap()).unwrap_or_else(|e| panic!("{e}"));
         let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-        let owners = Owners::new(&realisation, &model.domain).unwrap();
-        let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
+        let owners = Owners::new(&realisation).unwrap();
+        let plan = AssemblyPlan::new(&realisation).unwrap();
         let options = Options {
             engine: Engine::Auto,
             child: Some(worker::Child {
@@ -114,7 +114,7 @@ impl Built {
     /// gives the owner's name: point by point with the evaluator, and in the sum with the solids.
     fn assert_rule(&self, rule: impl Fn(&[&str]) -> String) {
         const POINTS: u32 = 40_000;
-        let (low, high) = self.owners.domain();
+        let (low, high) = (self.owners.extent().low(), self.owners.extent().high());
         let names: Vec<&str> = self.plan.names.iter().map(String::as_str).collect();
         let mut hits = vec![0_u32; names.len()];
         let mut stream = Stream::new(1, "test", "1", "points", 0);
@@ -304,7 +304,8 @@ fn channels_that_wander_widen_overhang_and_end_are_assembled() {
     assert!((350.0..392.0).contains(&west), "{west}");
     // An overhang: somewhere the undercut channel lies under mud that lies beside it at its top.
     let undercut = built.volume("undercut");
-    let (low, high) = built.owners.domain();
+    let extent = built.owners.extent();
+    let (low, high) = (extent.low(), extent.high());
     let inside = |x: f64, z: f64| built.owners.inside(undercut, DVec3::new(x, 300.0, z));
     let steps =
         |from: f64, to: f64| (0..4000).map(move |i| from + (to - from) * f64::from(i) / 4e3);

@@ -30,8 +30,8 @@ fn assemble(source: &Source, without: &[&str], engine: Engine) -> Result<Built, 
         max_level: None,
     };
     let realisation = Realisation::new(&model, &selection).unwrap();
-    let owners = Owners::new(&realisation, &model.domain).unwrap();
-    let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
+    let owners = Owners::new(&realisation).unwrap();
+    let plan = AssemblyPlan::new(&realisation).unwrap();
     let options = Options {
         engine,
         child: None,

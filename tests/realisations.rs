@@ -270,7 +270,7 @@ fn children_without_a_center_are_spread_over_what_their_parent_has_of_the_domain
     };
     let alone = Realisation::new(&model, &alone).unwrap();
     assert_eq!(alone.instances[0].drawn, realisation.instances[0].drawn);
-    let owners = Owners::new(&alone, &model.domain).unwrap();
+    let owners = Owners::new(&alone).unwrap();
     let found = ellipsoids(&realisation);
     assert!(found.iter().all(|(center, _)| owners.in_domain(*center)));
     assert!(found.iter().all(|(center, _)| owners.inside(1, *center)));
@@ -425,7 +425,7 @@ proptest! {
     ) {
         let model = model(&overhanging(left, right, width, depth, asymmetry), &[]);
         let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-        let owners = Owners::new(&realisation, &model.domain).unwrap();
+        let owners = Owners::new(&realisation).unwrap();
         let (half, thalweg) = (width / 2.0, asymmetry * width);
         let spread = 0.45 * (half - thalweg.abs());
         let drop = 0.65 * depth;
@@ -463,7 +463,7 @@ proptest! {
     ) {
         let model = model(&overhanging(left, 80.0, 60.0, 6.0, 0.1), &[]);
         let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-        let owners = Owners::new(&realisation, &model.domain).unwrap();
+        let owners = Owners::new(&realisation).unwrap();
         let Body::Trough(trough) = &realisation.instances[0].body else {
             panic!("a channel")
         };

@@ -109,7 +109,7 @@ fn fuse(
 /// The plan as the kernel's job, with one remedy's way of cutting.
 fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
     let with_lids = remedy.tops == Tops::Lids;
-    let block = [plan.low, plan.high];
+    let block = [plan.low(), plan.high()];
     let closed = |shell: &PlannedShell| match &shell.flush {
         Some(flush) if with_lids => Some(shapes::trough(&flush.raised, block, remedy.cut, None)),
         flush => {
@@ -137,7 +137,7 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
         .iter()
         .flat_map(|shell| &shell.vertices)
         .map(|p| glam::DVec3::from_array(*p));
-    let (low, high) = points.fold((plan.low, plan.high), |(low, high), p| {
+    let (low, high) = points.fold((plan.low(), plan.high()), |(low, high), p| {
         (low.min(p), high.max(p))
     });
     let margin = glam::DVec3::splat((high - low).max_element());
@@ -148,7 +148,7 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
         ]
     };
     FuseJob {
-        domain: [plan.low.to_array(), plan.high.to_array()],
+        domain: [plan.low().to_array(), plan.high().to_array()],
         above_lids: plan.lids.iter().filter(|_| with_lids).map(above).collect(),
         shells,
         bodies: plan.bodies.iter().filter_map(planned).collect(),

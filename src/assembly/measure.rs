@@ -59,7 +59,7 @@ pub(super) struct Counts {
 impl Measured {
     /// Measures solids that the kernel made, by the kernel's integrals.
     pub(super) fn of_solids(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
-        let middle = (plan.low + plan.high) / 2.0;
+        let middle = (plan.low() + plan.high()) / 2.0;
         let integrals = face_integrals(solids, EPS, middle.to_array(), Threads::All)?;
         let boxes: Vec<(DVec3, DVec3)> = solid_boxes(solids, Threads::All)?
             .iter()
@@ -163,8 +163,8 @@ fn pieces(
 /// hold whole surfaces, so they reach beyond both.
 fn limits(plan: &AssemblyPlan, volume: usize) -> (DVec3, DVec3) {
     let body = plan.bodies.iter().find(|body| body.volume == volume);
-    let (low, high) = body.map_or((plan.low, plan.high), |body| {
+    let (low, high) = body.map_or((plan.low(), plan.high()), |body| {
         plan.shells[body.shell].body.bounds()
     });
-    (low.max(plan.low), high.min(plan.high))
+    (low.max(plan.low()), high.min(plan.high()))
 }

@@ -228,7 +228,7 @@ pub fn assemble(
         run.failed.push(Failed {
             engine: Engine::Occt,
             remedy: fused::LADDER[0].name,
-            why: "it takes closed bodies only, and the model has horizons or clinoforms".to_owned(),
+            why: "it takes closed bodies only, and the model has horizons, clinoforms, or a domain with a base or top of its own".to_owned(),
         });
     } else if options.engine != Engine::Partition {
         for remedy in &fused::LADDER {

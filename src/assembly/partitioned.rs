@@ -11,7 +11,7 @@ use super::kernel::{
 };
 use super::labels::Holders;
 use super::measure::{Counts, Measured};
-use super::proof::{Check, Evidence};
+use super::proof::{Check, DOMAIN, Evidence};
 use super::shapes::{self, EXACT};
 use super::{AssemblyError, Engine, Failed, Options};
 use crate::features::body::{Body, Role, Trough, TroughError};
@@ -122,12 +122,20 @@ fn partition(
     options: &Options,
     cancel: &Cancel,
 ) -> Result<Partition, Trouble> {
+    let first_bound = 1 + plan.lids.len() + plan.shells.len();
+    let within: Vec<bool> = plan.bounds().map(|(is_top, _)| !is_top).collect();
     let holders = Holders::new(&plan.bodies, plan.rules.len(), plan.lids.len());
-    let labels = |inside: &[bool]| holders.owner(&plan.rules, inside);
+    let labels = |inside: &[bool]| {
+        // Outside of the domain is what is below its base or above its top.
+        let is_within = inside[first_bound..] == within;
+        is_within
+            .then(|| holders.owner(&plan.rules, inside))
+            .flatten()
+    };
     let volumes = volumes(plan);
     let meet = |one: usize, other: usize| match (volumes[one].as_slice(), volumes[other].as_slice())
     {
-        // The block and lids matter everywhere.
+        // The block, its base and top, and lids matter everywhere.
         ([], _) | (_, []) => true,
         (one, other) => one
             .iter()
@@ -154,11 +162,11 @@ fn partition(
     pool.install(run)
 }
 
-/// The block, the lids and the shells.
+/// The block, the lids and the shells; then what bounds the domain in the block.
 fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region>, Trouble> {
     let mut regions = vec![Region::Block {
-        low: plan.low,
-        high: plan.high,
+        low: plan.low(),
+        high: plan.high(),
     }];
     regions.extend(plan.lids.iter().map(|level| Region::Above(*level)));
     let shells: Vec<_> = plan
@@ -170,13 +178,15 @@ fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region>, Trouble>
     for shell in shells {
         regions.push(shell?);
     }
+    regions.extend(plan.bounds().map(|(_, side)| open(side)));
     Ok(regions)
 }
 
-/// By region: the volumes that ask for it; none for the block, and for lids.
+/// By region: the volumes that ask for it; none for the block, its base and top, and for lids.
 fn volumes(plan: &AssemblyPlan) -> Vec<Vec<usize>> {
     let first_shell = 1 + plan.lids.len();
-    let mut volumes = vec![Vec::new(); first_shell + plan.shells.len()];
+    let count = first_shell + plan.shells.len() + plan.bounds().count();
+    let mut volumes = vec![Vec::new(); count];
     for body in &plan.bodies {
         volumes[first_shell + body.shell].push(body.volume);
         // What a horizon ends asks for it too.
@@ -202,7 +212,7 @@ fn region(
     shell: &PlannedShell,
 ) -> Result<Region, Trouble> {
     let near = |trough: &Trough| -> Result<Vec<(Role, nurbs::Surface)>, Trouble> {
-        let [first, last] = shapes::ends(trough, [plan.low, plan.high], OVERSHOOT);
+        let [first, last] = shapes::ends(trough, [plan.low(), plan.high()], OVERSHOOT);
         Ok(trough.between(first, last)?.sheets()?)
     };
     let only = |sheets: Vec<(Role, nurbs::Surface)>, without: Option<Role>| {
@@ -223,10 +233,7 @@ fn region(
         Body::Side(side) => {
             return Ok(match side.level() {
                 Some(level) => Region::Above(level),
-                None => Region::Side {
-                    surfaces: side.sheets().to_vec(),
-                    inside: Arc::clone(side) as Arc<dyn Membership>,
-                },
+                None => open(side),
             });
         }
     };
@@ -239,6 +246,14 @@ fn region(
         },
         _ => Region::Shell(surfaces),
     })
+}
+
+/// What lies on one side of open sheets.
+fn open(side: &Arc<Side>) -> Region {
+    Region::Side {
+        surfaces: side.sheets().to_vec(),
+        inside: Arc::clone(side) as Arc<dyn Membership>,
+    }
 }
 
 /// A closed surface cut at its meridians. Smaller faces, without a seam, are what other programs integrate best by
@@ -261,7 +276,9 @@ fn finish(
     made: &Partition,
 ) -> Result<Partitioned, super::kernel::BridgeError> {
     let topology = &made.topology;
-    let solids = Solids::from_tables(&tables(topology))?;
+    let first_shell = 1 + plan.lids.len();
+    let first_bound = first_shell + plan.shells.len();
+    let solids = Solids::from_tables(&tables(topology, first_bound))?;
     let integrals: Vec<FaceIntegral> = topology
         .faces
         .iter()
@@ -284,8 +301,8 @@ fn finish(
         },
         plan,
     );
-    let first_shell = 1 + plan.lids.len();
-    let bodies = |pair: &&(usize, usize)| pair.0 >= first_shell && pair.1 >= first_shell;
+    let is_body = |region: usize| (first_shell..first_bound).contains(&region);
+    let bodies = |pair: &&(usize, usize)| is_body(pair.0) && is_body(pair.1);
     Ok(Partitioned {
         evidence: Evidence {
             lids: plan.lids.len(),
@@ -293,7 +310,7 @@ fn finish(
             checks: vec![Check {
                 name: "distance of edges from their surfaces and vertices (m)",
                 measured: deviation,
-                bound: EXACT.max(1e-9 * (plan.high - plan.low).length()),
+                bound: EXACT.max(1e-9 * (plan.high() - plan.low()).length()),
                 detail: format!(
                     "{} edges, {} computed curves",
                     topology.edges.len(),
@@ -333,8 +350,11 @@ fn samples(topology: &Topology) -> Vec<FaceSample> {
         .collect()
 }
 
-/// The topology as the bridge's tables.
-fn tables(topology: &Topology) -> Tables {
+/// The topology as the bridge's tables. What bounds the domain has the domain's own argument.
+fn tables(topology: &Topology, first_bound: usize) -> Tables {
+    let argument = |region: usize| {
+        if region < first_bound { region } else { DOMAIN }
+    };
     Tables {
         vertices: topology
             .vertices
@@ -378,7 +398,7 @@ fn tables(topology: &Topology) -> Tables {
                     loops: face.loops.clone(),
                     tolerance: EXACT,
                     origins: vec![FaceOrigin {
-                        argument: sheet.region,
+                        argument: argument(sheet.region),
                         face: sheet.place,
                         same_orientation: sheet.looks_out,
                     }],

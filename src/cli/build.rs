@@ -183,8 +183,7 @@ pub(super) fn assemble(
 ) -> Result<Built, Failure> {
     let started = Instant::now();
     let wrong = |error: &dyn std::fmt::Display| Failure::Wrong(error.to_string());
-    let plan = AssemblyPlan::new(&loaded.realisation, &loaded.model.domain)
-        .map_err(|error| wrong(&error))?;
+    let plan = AssemblyPlan::new(&loaded.realisation).map_err(|error| wrong(&error))?;
     let owners = loaded.owners()?;
     loaded.timings.push(("plan", started.elapsed()));
     let program = std::env::current_exe().map_err(|error| {

@@ -62,7 +62,6 @@ pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
 impl Loaded {
     /// The point evaluator.
     pub(super) fn owners(&self) -> Result<Owners, Failure> {
-        Owners::new(&self.realisation, &self.model.domain)
-            .map_err(|error| Failure::Wrong(error.to_string()))
+        Owners::new(&self.realisation).map_err(|error| Failure::Wrong(error.to_string()))
     }
 }

@@ -11,6 +11,7 @@ use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, picture};
 use crate::export::mesh;
+use crate::export::picture::cap;
 use crate::export::picture::view::{Box3, Camera, Cut, Part, Projection, Scene};
 use crate::model::rules::BACKGROUND;
 
@@ -94,22 +95,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, false)?;
     let owners = loaded.owners()?;
     let (volumes, legend) = picture::key(&loaded);
-    let (low, high) = owners.domain();
+    let (low, high) = (owners.extent().low(), owners.extent().high());
     let camera = camera(args);
     let (parts, loaded) = match args.style {
         Style::Block => (Vec::new(), loaded),
         Style::Solids | Style::Sheets => assembled(args, loaded)?,
-    };
-    let cut = args.cut.map(|at| corner(at, &camera, low, high));
-    let scene = Scene {
-        title: loaded.model.name.clone(),
-        subtitle: format!("seed {}", loaded.model.seed),
-        domain: Box3 { low, high },
-        parts,
-        volumes,
-        legend,
-        camera,
-        cut,
     };
     let shown = |point: DVec3| {
         let owner = owners.at(point)?;
@@ -124,6 +114,21 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         } else {
             u32::try_from(owner).ok()
         }
+    };
+    let parts = match args.style {
+        Style::Block => cap::caps(owners.extent(), &shown),
+        Style::Solids | Style::Sheets => parts,
+    };
+    let cut = args.cut.map(|at| corner(at, &camera, low, high));
+    let scene = Scene {
+        title: loaded.model.name.clone(),
+        subtitle: format!("seed {}", loaded.model.seed),
+        domain: Box3 { low, high },
+        parts,
+        volumes,
+        legend,
+        camera,
+        cut,
     };
     let bytes = scene
         .png(args.size[0], args.size[1], Some(&shown))
@@ -165,7 +170,7 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
     let progress = Progress::new(args.engine.quiet);
     let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
-    let deflection = DEFLECTION * built.plan.low.distance(built.plan.high);
+    let deflection = DEFLECTION * built.plan.low().distance(built.plan.high());
     let meshes = match args.style {
         Style::Sheets => mesh::triangulate_sheets(&built.assembly, &built.plan, deflection),
         Style::Solids | Style::Block => mesh::triangulate(&built.assembly, deflection),

@@ -46,7 +46,7 @@ mod tests {
         let source = Source::from_text(file, text, Format::Toml);
         let model = Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));
         let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-        let plan = AssemblyPlan::new(&realisation, &model.domain).unwrap();
+        let plan = AssemblyPlan::new(&realisation).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let files = write(folder.path(), &plan).unwrap();
         (folder, files)

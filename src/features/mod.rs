@@ -8,6 +8,7 @@ pub mod boundary;
 pub mod channel;
 pub mod clinoform;
 pub mod ellipsoid;
+pub mod extent;
 pub mod extrusion;
 pub mod frame;
 pub mod horizon;

@@ -9,13 +9,12 @@ use rayon::prelude::*;
 use super::interior::{Interior, InteriorError, around};
 use super::realisation::{Instance, Realisation};
 use super::rules::{Rules, Verdict};
-use super::spec::Domain;
+use crate::features::extent::Extent;
 
 /// Answers `owner(p)` for one realisation.
 #[derive(Clone, Debug)]
 pub struct Owners {
-    low: DVec3,
-    high: DVec3,
+    extent: Extent,
     rules: Rules,
     interiors: Vec<Interior>,
 }
@@ -43,7 +42,7 @@ pub struct Location {
 
 impl Owners {
     /// Prepares the interiors of all bodies.
-    pub fn new(realisation: &Realisation, domain: &Domain) -> Result<Self, OwnersError> {
+    pub fn new(realisation: &Realisation) -> Result<Self, OwnersError> {
         let interior = |instance: &Instance| {
             Interior::of(&instance.body).map_err(|source| OwnersError {
                 volume: realisation.volumes[instance.volume].name.clone(),
@@ -55,10 +54,8 @@ impl Owners {
             .par_iter()
             .map(interior)
             .collect::<Result<_, _>>()?;
-        let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
         Ok(Self {
-            low: corner(0),
-            high: corner(1),
+            extent: realisation.extent.clone(),
             rules: realisation.rules.clone(),
             interiors,
         })
@@ -88,9 +85,9 @@ impl Owners {
             .filter(move |volume| self.interiors[volume - 1].is_near(point, distance))
     }
 
-    /// Whether the domain holds a point, its faces included.
+    /// Whether the domain holds a point: the block, its faces included, above the domain's base and not above its top.
     pub fn in_domain(&self, point: DVec3) -> bool {
-        point.cmpge(self.low).all() && point.cmple(self.high).all()
+        self.extent.holds(point)
     }
 
     /// The owner with its history, and the volumes that meet within `tolerance` of the point (m).
@@ -130,8 +127,8 @@ impl Owners {
         })
     }
 
-    /// The corners of the domain.
-    pub fn domain(&self) -> (DVec3, DVec3) {
-        (self.low, self.high)
+    /// The domain.
+    pub fn extent(&self) -> &Extent {
+        &self.extent
     }
 }

@@ -10,12 +10,15 @@
 //!   the raised shell and below the lid; every contact is a crossing at an angle, and nothing changes
 //!   inside the bodies. The domain's own top serves as lid for bodies that reach it.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::realisation::{Instance, Realisation};
 use super::rules::Rules;
-use super::spec::Domain;
 use crate::features::body::{Body, Trough, TroughError};
+use crate::features::extent::Extent;
+use crate::features::side::Side;
 
 /// Two levels are the same within this fraction of the domain's size: far below any geology, far
 /// above rounding.
@@ -24,10 +27,8 @@ const SAME_LEVEL: f64 = 1e-9;
 /// What the kernel has to assemble.
 #[derive(Clone, Debug)]
 pub struct AssemblyPlan {
-    /// Lower corner of the domain.
-    pub low: DVec3,
-    /// Upper corner of the domain.
-    pub high: DVec3,
+    /// The domain: a block, with the base and the top that bound it there.
+    pub extent: Extent,
     /// Which volume holds what.
     pub rules: Rules,
     /// The volumes' names, for messages.
@@ -105,11 +106,9 @@ enum Top {
 
 impl AssemblyPlan {
     /// Decides what the kernel has to do for a realisation.
-    pub fn new(realisation: &Realisation, domain: &Domain) -> Result<Self, PlanError> {
-        let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
+    pub fn new(realisation: &Realisation) -> Result<Self, PlanError> {
         let mut plan = Self {
-            low: corner(0),
-            high: corner(1),
+            extent: realisation.extent.clone(),
             rules: realisation.rules.clone(),
             names: realisation
                 .volumes
@@ -158,10 +157,26 @@ impl AssemblyPlan {
         Ok(plan)
     }
 
+    /// Lower corner of the domain's block.
+    pub fn low(&self) -> DVec3 {
+        self.extent.low()
+    }
+
+    /// Upper corner of the domain's block.
+    pub fn high(&self) -> DVec3 {
+        self.extent.high()
+    }
+
     /// Whether anything but closed bodies takes part.
     pub fn has_sides(&self) -> bool {
         let is_side = |shell: &PlannedShell| matches!(shell.body, Body::Side(_));
-        self.shells.iter().any(is_side)
+        self.bounds().next().is_some() || self.shells.iter().any(is_side)
+    }
+
+    /// The base and the top of the domain that are not the block's own: each with whether it is the top.
+    pub fn bounds(&self) -> impl Iterator<Item = (bool, &Arc<Side>)> {
+        let bounds = self.extent.bounds().iter().zip([false, true]);
+        bounds.filter_map(|(side, is_top)| side.as_ref().map(|side| (is_top, side)))
     }
 
     fn note(&mut self, decision: String) {
@@ -171,7 +186,7 @@ impl AssemblyPlan {
     /// Whether a body's box meets the inside of the domain.
     fn reaches_domain(&mut self, body: &Body, volume: usize) -> bool {
         let (low, high) = body.bounds();
-        let reaches = low.cmplt(self.high).all() && high.cmpgt(self.low).all();
+        let reaches = low.cmplt(self.high()).all() && high.cmpgt(self.low()).all();
         if !reaches {
             self.note(format!("{} lies outside the domain", self.names[volume]));
         }
@@ -180,14 +195,14 @@ impl AssemblyPlan {
 
     /// Which bodies end at the domain's top or under a common lid.
     fn tops(&mut self, bodies: &[&Instance]) -> Vec<Top> {
-        let size = (self.high - self.low).max_element();
+        let size = (self.high() - self.low()).max_element();
         let same = SAME_LEVEL * size;
         let levels: Vec<Option<f64>> = bodies.iter().map(|one| one.body.level_top(same)).collect();
         let bounds: Vec<_> = bodies.iter().map(|one| one.body.bounds()).collect();
         let mut tops = vec![Top::Free; bodies.len()];
         for (i, level) in levels.iter().enumerate() {
             let Some(level) = *level else { continue };
-            if (level - self.high.z).abs() <= same {
+            if (level - self.high().z).abs() <= same {
                 tops[i] = Top::OfDomain;
                 self.note(format!(
                     "{} ends at the domain's top",
@@ -215,7 +230,7 @@ impl AssemblyPlan {
                     && levels[*j].is_some_and(|other| (other - level).abs() <= same)
                     && boxes_meet_in_plan(&bounds[i], &bounds[*j])
             };
-            if level < self.high.z && (0..bodies.len()).any(|j| meets(&j)) {
+            if level < self.high().z && (0..bodies.len()).any(|j| meets(&j)) {
                 // The first one's level stands for all that are the same.
                 let lid = levels
                     .iter()
@@ -236,7 +251,7 @@ impl AssemblyPlan {
     fn add_shell(&mut self, instance: &Instance, top: Top) -> Result<usize, PlanError> {
         let level = match top {
             Top::Free => None,
-            Top::OfDomain => Some(self.high.z),
+            Top::OfDomain => Some(self.high().z),
             Top::UnderLid(level) | Top::UnderHorizon(_, level) => Some(level),
         };
         let flush = match (level, &instance.body) {

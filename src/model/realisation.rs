@@ -7,14 +7,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::draws::{self, Drawn, Rejected, Surroundings, strata};
 use super::interior::Interior;
 use super::rules::{BACKGROUND, Rules, VolumeRules};
 use super::selection::Selection;
-use super::spec::{Bound, ClinoformsSpec, Feature, FeatureKind, Model, Selector};
+use super::spec::{
+    Bound, ClinoformsSpec, Domain, Feature, FeatureKind, HorizonSurface, Model, Selector,
+};
 use crate::features::body::Body;
+use crate::features::extent::Extent;
 use crate::features::horizon::Horizon;
 use crate::features::side::Side;
 
@@ -58,6 +62,8 @@ pub struct Realisation {
     pub instances: Vec<Instance>,
     /// Rejected draws, by feature and reason.
     pub rejections: Vec<Rejection>,
+    /// What is modelled: the block, between the domain's own base and top.
+    pub extent: Extent,
 }
 
 /// Why a model has no realisation.
@@ -115,22 +121,16 @@ struct Planned {
 impl Realisation {
     /// Draws and builds all instances of the selected features.
     pub fn new(model: &Model, selection: &Selection) -> Result<Self, RealisationError> {
-        if model.domain.base.is_some() || model.domain.top.is_some() {
-            return Err(RealisationError::Impossible {
-                volume: "background".to_owned(),
-                reason: "the domain's own `base` and `top` cannot be built by this version; \
-                         leave them out"
-                    .to_owned(),
-            });
-        }
         let mut list = Listing::new(model, selection)?;
         list.instances(None, "", "")?;
         let Listing {
             volumes,
             planned,
             rejected,
+            bounds,
             ..
         } = list;
+        let extent = extent(&model.domain, &bounds)?;
         let made = realise_all(model, &planned, &volumes)?;
         let mut instances = Vec::with_capacity(made.len());
         let mut counts: BTreeMap<(usize, &'static str), u32> = BTreeMap::new();
@@ -156,6 +156,7 @@ impl Realisation {
             volumes,
             instances,
             rejections,
+            extent,
         })
     }
 
@@ -173,6 +174,8 @@ struct Listing<'a> {
     planned: Vec<Planned>,
     /// The horizons by feature, of those features that are one, whether or not they take part.
     horizons: BTreeMap<usize, DrawnHorizon>,
+    /// The domain's own base and top.
+    bounds: [Option<Horizon>; 2],
     /// The unit above the last horizon so far.
     open: usize,
     /// Draws that were rejected, by feature.
@@ -212,6 +215,10 @@ impl<'a> Listing<'a> {
             volumes: vec![background],
             planned: Vec::new(),
             horizons,
+            bounds: [
+                bound(model, "base", model.domain.base.as_ref())?,
+                bound(model, "top", model.domain.top.as_ref())?,
+            ],
             open: BACKGROUND,
         })
     }
@@ -301,20 +308,12 @@ impl<'a> Listing<'a> {
 
     /// The horizon that bounds the domain: its own, or the block's.
     fn domain_bound(&self, top: bool) -> Result<Horizon, RealisationError> {
-        let domain = &self.model.domain;
-        let surface = if top { &domain.top } else { &domain.base };
-        let impossible = |reason: String| RealisationError::Impossible {
-            volume: "domain".to_owned(),
-            reason,
-        };
-        match surface {
-            Some(surface) => {
-                let which = if top { "top" } else { "base" };
-                let draw = |key: draws::Key<'_>| strata::horizon(surface, key);
-                Ok(draw_whole(self.model, "domain", which, draw)?.0.0)
+        let at = usize::from(top);
+        match &self.bounds[at] {
+            Some(horizon) => Ok(horizon.clone()),
+            None => {
+                Horizon::flat(self.model.domain.z[at]).map_err(|error| impossible_domain(&error))
             }
-            None => Horizon::flat(domain.z[usize::from(top)])
-                .map_err(|error| impossible(error.to_string())),
         }
     }
 
@@ -418,6 +417,33 @@ impl<'a> Listing<'a> {
             from: None,
         }
     }
+}
+
+fn impossible_domain(error: &impl ToString) -> RealisationError {
+    RealisationError::Impossible {
+        volume: "domain".to_owned(),
+        reason: error.to_string(),
+    }
+}
+
+/// Draws the domain's own base or top.
+fn bound(
+    model: &Model,
+    which: &str,
+    surface: Option<&HorizonSurface>,
+) -> Result<Option<Horizon>, RealisationError> {
+    let drawn = surface.map(|surface| {
+        let draw = |key: draws::Key<'_>| strata::horizon(surface, key);
+        draw_whole(model, "domain", which, draw)
+    });
+    Ok(drawn.transpose()?.map(|((horizon, _), _)| horizon))
+}
+
+/// The domain's block between its own base and top.
+fn extent(domain: &Domain, bounds: &[Option<Horizon>; 2]) -> Result<Extent, RealisationError> {
+    let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
+    let [base, top] = bounds.each_ref().map(Option::as_ref);
+    Extent::new(corner(0), corner(1), base, top).map_err(|error| impossible_domain(&error))
 }
 
 /// Draws something that is no single instance, again and again until it is possible; with the reasons of what was

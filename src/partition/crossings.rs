@@ -40,6 +40,8 @@ pub(super) struct Triple {
     pub(super) sheet: usize,
     pub(super) t: f64,
     pub(super) point: DVec3,
+    /// Parameters on the branch's sheets.
+    q: [f64; 4],
 }
 
 /// Everything that was found.
@@ -129,6 +131,7 @@ impl Crossings {
             faults.undecided += undecided;
             all.extend(triples);
         }
+        pass_through(regions, &mut crossings, &all, tolerances);
         doubtful.sort_unstable();
         doubtful.dedup();
         Self {
@@ -372,17 +375,39 @@ fn triples(
         undecided += found.undecided;
         for root in found.roots {
             match refine(regions, crossing, sheet, &root, tolerances) {
-                Some((t, point)) => triples.push(Triple {
+                Some((t, point, q)) => triples.push(Triple {
                     crossing: at,
                     sheet,
                     t,
                     point,
+                    q,
                 }),
                 None => undecided += 1,
             }
         }
     }
     (triples, undecided)
+}
+
+/// Gives branches nodes where they pass through third sheets. Between nodes a branch of sheets that are nearly parallel
+/// may be much farther from their curve than from both sheets; three that share a point would pass each other there.
+fn pass_through(
+    regions: &Regions,
+    crossings: &mut [Crossing],
+    triples: &[Triple],
+    tolerances: Tolerances,
+) {
+    for triple in triples {
+        let Crossing { sheets, branch } = &mut crossings[triple.crossing];
+        let pair = Pair {
+            sheets: sheets.map(|at| &regions.sheets[at]),
+            tolerances,
+        };
+        let towards = branch.in_space(triple.t)[1];
+        if let Some(node) = pair.node(triple.q, Some(towards)) {
+            branch.insert(triple.t, node);
+        }
+    }
 }
 
 /// The common point of three sheets near a root of a computed branch, and its place on the branch.
@@ -392,7 +417,7 @@ fn refine(
     third: usize,
     root: &Root,
     tolerances: Tolerances,
-) -> Option<(f64, DVec3)> {
+) -> Option<(f64, DVec3, [f64; 4])> {
     let sheets = [crossing.sheets[0], crossing.sheets[1], third].map(|at| &regions.sheets[at]);
     let value = crossing.branch.value(root.t);
     let mut q = [value[3], value[4], value[5], value[6], root.at.x, root.at.y];
@@ -421,7 +446,8 @@ fn refine(
             let point = sheets[0].point(q[0], q[1]);
             let near = point.distance(root.point) < 1e-3 * tolerances.scale;
             let (t, distance) = crossing.branch.project(point);
-            return (near && distance < MATCH * tolerances.scale).then_some((t, point));
+            let own = [q[0], q[1], q[2], q[3]];
+            return (near && distance < MATCH * tolerances.scale).then_some((t, point, own));
         }
     }
     None

@@ -114,6 +114,9 @@ fn slope<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
     })
 }
 
+/// Nearer to a node than this fraction of a piece, the piece is as good as exact: its error grows with the third power.
+const BESIDE: f64 = 1e-2;
+
 /// A curve on two sheets, computed.
 #[derive(Clone, Debug)]
 pub(super) struct Branch {
@@ -188,6 +191,15 @@ impl Branch {
         let length = self.lengths[piece + 1] - self.lengths[piece];
         let points = control_of(&self.nodes[piece], &self.nodes[piece + 1], length, first);
         [at(&points, s), slope(&points, s).map(|d| d / length)]
+    }
+
+    /// Makes a point of the exact curve a node, unless it is beside one.
+    pub(super) fn insert(&mut self, t: f64, node: Node) {
+        let (piece, s) = self.locate(t);
+        if (BESIDE..1.0 - BESIDE).contains(&s) {
+            self.nodes.insert(piece + 1, node);
+            self.lengths.insert(piece + 1, t);
+        }
     }
 
     /// The parameter of the nearest point to one that lies near the branch, and its distance.

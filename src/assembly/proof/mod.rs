@@ -20,8 +20,8 @@ const TOLERANCE: f64 = super::shapes::EXACT;
 const SUM_TOLERANCE: f64 = 4e-9;
 /// Relative error of the kernel's integrals.
 const KERNEL_VOLUME: f64 = 1e-6;
-/// The domain's argument among the kernel's arguments.
-const DOMAIN: usize = 0;
+/// The domain's argument among the kernel's arguments: its block, and the base and top that bound it there.
+pub(super) const DOMAIN: usize = 0;
 
 /// How thorough the proof is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -199,8 +199,7 @@ impl Prover<'_> {
 
     /// Volumes sum to the domain's.
     fn volume_sum(&self) -> Check {
-        let size = self.plan.high - self.plan.low;
-        let domain = size.x * size.y * size.z;
+        let domain = self.plan.extent.volume();
         let sum: f64 = self.measured.pieces.iter().map(|piece| piece.size).sum();
         Check {
             name: "volumes sum to the domain's (m³)",
@@ -229,8 +228,7 @@ impl Prover<'_> {
 
     /// The faces that bound one solid are the domain's skin.
     fn outer_area(&self) -> Check {
-        let size = self.plan.high - self.plan.low;
-        let skin = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+        let skin = self.plan.extent.skin();
         let sum: f64 = self.measured.outer.values().sum();
         Check {
             name: "outer faces cover the domain's skin (m²)",

@@ -33,10 +33,10 @@ struct Beside {
 impl Prover<'_> {
     /// Each volume agrees with an integral of `owner`, and whatever owns a sampled point has a solid.
     pub(super) fn sampled_volumes(&self) -> Vec<Check> {
-        let mut boxes = vec![(BACKGROUND, self.plan.low, self.plan.high, OVERALL)];
+        let mut boxes = vec![(BACKGROUND, self.plan.low(), self.plan.high(), OVERALL)];
         for body in &self.plan.bodies {
             let (low, high) = self.plan.shells[body.shell].body.bounds();
-            let (low, high) = (low.max(self.plan.low), high.min(self.plan.high));
+            let (low, high) = (low.max(self.plan.low()), high.min(self.plan.high()));
             boxes.push((body.volume, low, high, PER_VOLUME));
         }
         let statements = boxes.len() as f64;
@@ -158,9 +158,7 @@ impl Prover<'_> {
                     .flat_map(|body| origins.iter().map(move |origin| (body, origin)))
                     .any(|(body, origin)| origin.argument == first_shell + body.shell)
             };
-            let skin = DVec3::splat(reach.abs());
-            let at_skin = (point - self.plan.low).cmplt(skin).any()
-                || (self.plan.high - point).cmplt(skin).any();
+            let at_skin = self.plan.extent.is_near_skin(point, reach.abs());
             at_skin && !origins.iter().any(|origin| origin.argument == DOMAIN)
                 || self
                     .owners

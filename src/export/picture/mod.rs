@@ -10,6 +10,7 @@
 
 mod camera;
 mod canvas;
+pub mod cap;
 mod check;
 mod face;
 mod font;

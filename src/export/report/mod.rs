@@ -44,8 +44,7 @@ impl Report {
             assembly,
             level,
         } = parts;
-        let size = plan.high - plan.low;
-        let domain = size.element_product();
+        let domain = plan.extent.volume();
         let volumes: Vec<VolumeEntry> = (0..realisation.volumes.len())
             .map(|volume| volume_entry(parts, volume))
             .collect();

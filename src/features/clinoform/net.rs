@@ -117,7 +117,7 @@ impl Fit<'_> {
     }
 
     /// Knots in u: spans from the upper border to the toe, of which those near the toe are shorter the less smooth the
-    /// profile is there; and one below the toe.
+    /// profile is there; and spans below the toe.
     fn across(&self, spans: usize, degree: usize) -> Result<KnotVector, KnotError> {
         let (first, last) = self.design.ends();
         let exponent = self.design.exponent;
@@ -134,6 +134,16 @@ impl Fit<'_> {
         if last > 1.0 {
             // The profile's slope goes on over the toe, its curvature ends there.
             knots.extend(std::iter::repeat_n(1.0, degree - 1));
+            // Below it the sheet follows the base, over spans that are no longer than those above.
+            let mut steps = 1.0;
+            while (last - 1.0) * spans as f64 > (1.0 - first) * steps {
+                steps += 1.0;
+            }
+            let mut step = 1.0;
+            while step < steps {
+                knots.push(1.0 + (last - 1.0) * step / steps);
+                step += 1.0;
+            }
         }
         knots.extend(std::iter::repeat_n(last, degree + 1));
         KnotVector::new(degree, knots)

@@ -1,0 +1,342 @@
+//! Horizons that bound and divide a domain, and parasequences between undulating ones, made by the partition and proven in
+//! full.
+//!
+//! The oracles are sums over columns of the horizons' heights, truth tables by hand, and sums over a lattice of points that
+//! the point evaluator is asked for.
+#![cfg(feature = "occt")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
+use clinothem::features::horizon::Horizon;
+use clinothem::model::owner::Owners;
+use clinothem::model::plan::AssemblyPlan;
+use clinothem::model::realisation::Realisation;
+use clinothem::model::selection::Selection;
+use clinothem::model::{FeatureKind, HorizonSurface, Model, Source};
+use glam::{DVec2, DVec3};
+
+struct Built {
+    model: Model,
+    realisation: Realisation,
+    owners: Owners,
+    assembly: Assembly,
+}
+
+fn model(name: &str, overrides: &[&str]) -> Model {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("models/strata")
+        .join(name)
+        .with_extension("toml");
+    let mut source = Source::read(path).unwrap();
+    for one in overrides {
+        source.set((*one).to_owned());
+    }
+    Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
+}
+
+fn build(name: &str, overrides: &[&str], without: &[&str]) -> Built {
+    let model = model(name, overrides);
+    let selection = Selection {
+        without: without.iter().map(ToString::to_string).collect(),
+        max_level: None,
+    };
+    let realisation = Realisation::new(&model, &selection).unwrap();
+    let owners = Owners::new(&realisation).unwrap();
+    let plan = AssemblyPlan::new(&realisation).unwrap();
+    let options = Options {
+        engine: Engine::Partition,
+        child: None,
+        threads: 0,
+        proof: proof::Level::Full,
+        seed: model.seed,
+    };
+    let assembly =
+        assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ()).unwrap();
+    Built {
+        model,
+        realisation,
+        owners,
+        assembly,
+    }
+}
+
+impl Built {
+    fn volume(&self, name: &str) -> usize {
+        self.realisation.volume(name).unwrap()
+    }
+
+    fn size(&self, name: &str) -> f64 {
+        self.assembly.measured.size_of(self.volume(name))
+    }
+
+    fn pieces(&self, name: &str) -> usize {
+        self.assembly.measured.pieces_of(self.volume(name)).len()
+    }
+
+    /// All volumes whose names begin so.
+    fn sum(&self, start: &str) -> f64 {
+        let names = self.realisation.volumes.iter().map(|one| one.name.as_str());
+        names
+            .filter(|name| name.starts_with(start))
+            .map(|name| self.size(name))
+            .sum()
+    }
+
+    fn owner(&self, x: f64, y: f64, z: f64) -> Option<&str> {
+        let owner = self.owners.at(DVec3::new(x, y, z))?;
+        Some(self.realisation.volumes[owner].name.as_str())
+    }
+
+    /// The integral over the plan of a height, by the middles of columns.
+    fn over_plan(&self, height: impl Fn(f64, f64) -> f64) -> f64 {
+        const COLUMNS: u32 = 1000;
+        let [x, y] = [self.model.domain.x, self.model.domain.y];
+        let step = DVec2::new(x[1] - x[0], y[1] - y[0]) / f64::from(COLUMNS);
+        let mut sum = 0.0;
+        for i in 0..COLUMNS {
+            for j in 0..COLUMNS {
+                let at = |k: u32, step: f64| step * (f64::from(k) + 0.5);
+                sum += height(x[0] + at(i, step.x), y[0] + at(j, step.y));
+            }
+        }
+        sum * step.x * step.y
+    }
+}
+
+fn assert_near(a: f64, b: f64, part: f64) {
+    assert!((a - b).abs() < part * b.abs(), "{a} is not {b}");
+}
+
+/// The surface of a grid, as the model has it.
+fn grid(surface: &HorizonSurface) -> Horizon {
+    match surface {
+        HorizonSurface::Grid { x, y, heights } => Horizon::grid(*x, *y, heights).unwrap(),
+        _ => panic!("no grid"),
+    }
+}
+
+fn surface<'a>(model: &'a Model, id: &str) -> &'a HorizonSurface {
+    let feature = model.features.iter().find(|one| one.id == id).unwrap();
+    match &feature.kind {
+        FeatureKind::Horizon(spec) => &spec.surface,
+        _ => panic!("{id} is no horizon"),
+    }
+}
+
+/// The dipping planes of the model `bounds`, by hand: 1° to the east, and 2° to the south.
+fn base(x: f64, _: f64) -> f64 {
+    -36.0 - (x - 200.0) * 1.0_f64.to_radians().tan()
+}
+
+fn lapping(_: f64, y: f64) -> f64 {
+    -21.0 + (y - 300.0) * 2.0_f64.to_radians().tan()
+}
+
+#[test]
+fn volumes_between_horizons_are_sums_of_columns() {
+    let built = build("bounds", &[], &["channel"]);
+    let top = grid(built.model.domain.top.as_ref().unwrap());
+    let incised = grid(surface(&built.model, "incised"));
+    let domain = built.over_plan(|x, y| top.height(x, y) - base(x, y));
+    assert_near(built.realisation.extent.volume(), domain, 1e-6);
+    let background = built.over_plan(|x, y| incised.height(x, y) - base(x, y));
+    assert_near(built.size("background"), background, 1e-6);
+    let between = built.over_plan(|x, y| (lapping(x, y) - incised.height(x, y)).max(0.0));
+    assert_near(built.size("incised"), between, 1e-5);
+    let above = built.over_plan(|x, y| top.height(x, y) - lapping(x, y).max(incised.height(x, y)));
+    assert_near(built.size("onlapping"), above, 1e-5);
+}
+
+#[test]
+fn an_erosive_horizon_takes_from_all_below_it_and_an_onlapping_one_only_from_the_open_unit() {
+    let lap = build("bounds", &[], &["channel"]);
+    let cut = build(
+        "bounds",
+        &["feature.onlapping.relation=erosive"],
+        &["channel"],
+    );
+    let incised = grid(surface(&lap.model, "incised"));
+    let lower = |x: f64, y: f64| lapping(x, y).min(incised.height(x, y));
+    let left = cut.over_plan(|x, y| lower(x, y) - base(x, y));
+    assert_near(cut.size("background"), left, 1e-5);
+    assert!(cut.size("background") < 0.9 * lap.size("background"));
+    // South: the plane is below the incised surface. North: above it.
+    let (south, north) = ((200.0, 30.0), (200.0, 500.0));
+    let at = |(x, y): (f64, f64)| [base(x, y), lapping(x, y), incised.height(x, y)];
+    let [floor, plane, incision] = at(south);
+    assert!(floor < plane && plane < incision);
+    let table = [
+        (south, floor - 0.01, [None, None]),
+        (south, floor + 0.01, [Some("background"); 2]),
+        (south, plane - 0.01, [Some("background"); 2]),
+        (south, plane + 0.01, [Some("background"), Some("onlapping")]),
+        (
+            south,
+            incision - 0.01,
+            [Some("background"), Some("onlapping")],
+        ),
+        (south, incision + 0.01, [Some("onlapping"); 2]),
+        (north, at(north)[0] + 0.01, [Some("background"); 2]),
+        (north, at(north)[2] - 0.01, [Some("background"); 2]),
+        (north, at(north)[2] + 0.01, [Some("incised"); 2]),
+        (north, at(north)[1] - 0.01, [Some("incised"); 2]),
+        (north, at(north)[1] + 0.01, [Some("onlapping"); 2]),
+    ];
+    for ((x, y), z, expected) in table {
+        assert_eq!(
+            [&lap, &cut].map(|one| one.owner(x, y, z)),
+            expected,
+            "{y} {z}"
+        );
+    }
+    let top = grid(lap.model.domain.top.as_ref().unwrap());
+    let roof = top.height(200.0, 500.0);
+    assert_eq!(lap.owner(200.0, 500.0, roof - 0.01), Some("onlapping"));
+    assert_eq!(lap.owner(200.0, 500.0, roof + 0.01), None);
+}
+
+#[test]
+fn a_channel_in_a_bounded_domain_is_whole_where_nothing_cuts_it() {
+    let all = build("bounds", &[], &[]);
+    let alone = build("bounds", &[], &["incised", "onlapping"]);
+    assert_near(all.size("channel"), alone.size("channel"), 1e-8);
+    let names = ["background", "incised", "onlapping", "channel"];
+    assert_eq!(names.map(|name| all.pieces(name)), [1; 4]);
+    assert!(all.assembly.failed.is_empty());
+    // Where the domain's top cuts it, it ends there.
+    let high = build("bounds", &["feature.channel.top=-1"], &[]);
+    let whole = build(
+        "bounds",
+        &["feature.channel.top=-1", "domain.top={ level = -0.5 }"],
+        &[],
+    );
+    assert!(high.size("channel") < 0.95 * whole.size("channel"));
+    assert_near(whole.size("channel"), all.size("channel"), 1e-8);
+}
+
+#[test]
+fn a_level_base_and_top_are_the_blocks_own() {
+    let bounded = build(
+        "bounds",
+        &["domain.base={ level = -42 }", "domain.top={ level = -2 }"],
+        &[],
+    );
+    let mut lower = model("bounds", &["domain.z=[-42, -2]"]);
+    (lower.domain.base, lower.domain.top) = (None, None);
+    let realisation = Realisation::new(&lower, &Selection::default()).unwrap();
+    assert_eq!(bounded.realisation.extent, realisation.extent);
+    let total: f64 = bounded
+        .assembly
+        .measured
+        .pieces
+        .iter()
+        .map(|piece| piece.size)
+        .sum();
+    assert_near(total, 400.0 * 600.0 * 40.0, 1e-9);
+}
+
+#[test]
+fn bounds_that_cannot_be_are_refused_with_the_place() {
+    let refused = |overrides: &[&str]| {
+        let model = model("bounds", overrides);
+        Realisation::new(&model, &Selection::default())
+            .unwrap_err()
+            .to_string()
+    };
+    let words = refused(&["domain.z=[-38, 0]"]);
+    assert!(
+        words.contains("the base of the domain reaches down to -39.4"),
+        "{words}"
+    );
+    let words = refused(&["domain.z=[-45, -3]"]);
+    assert!(
+        words.contains("the top of the domain reaches up to -1."),
+        "{words}"
+    );
+    let words = refused(&["domain.base.dipping.through=[200, 300, -6]"]);
+    assert!(words.contains("not above its base"), "{words}");
+}
+
+#[test]
+fn scattered_points_lie_on_their_horizon_within_the_tolerance() {
+    let built = build("points", &[], &[]);
+    let HorizonSurface::Points { points, tolerance } = surface(&built.model, "picked") else {
+        panic!("no points");
+    };
+    let (mut inside, mut least) = (0, f64::INFINITY);
+    for &[x, y, z] in points {
+        let sides = [-1.0, 1.0].map(|sign| built.owner(x, y, z + 1.001 * sign * tolerance));
+        if sides != [None; 2] {
+            assert_eq!(sides, [Some("background"), Some("picked")], "{x} {y} {z}");
+            inside += 1;
+            least = least.min(z);
+        }
+    }
+    assert!(inside > 25 && least < -24.0, "{inside} {least}");
+    let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(*p)).collect();
+    let horizon = Horizon::points(&points, *tolerance).unwrap();
+    let above = built.over_plan(|x, y| -horizon.height(x, y));
+    assert_near(built.size("picked"), above, 1e-6);
+    assert_eq!(built.assembly.measured.pieces.len(), 2);
+}
+
+#[test]
+fn parasequences_fill_the_units_between_undulating_horizons() {
+    for (seed, solids) in [(1, 13), (3, 13)] {
+        let built = build("undulating", &[&format!("seed={seed}")], &[]);
+        // Curves of sheets that are nearly parallel meet in their common points, without a remedy.
+        assert!(built.assembly.failed.is_empty());
+        let domain = &built.model.domain;
+        let [base, top] = [&domain.base, &domain.top].map(|one| grid(one.as_ref().unwrap()));
+        let flooding = grid(surface(&built.model, "flooding"));
+        let lower = built.over_plan(|x, y| flooding.height(x, y) - base.height(x, y));
+        assert_near(built.sum("lower"), lower, 1e-6);
+        let upper = built.over_plan(|x, y| top.height(x, y) - flooding.height(x, y));
+        assert_near(built.sum("flooding/upper"), upper, 1e-6);
+        // Nothing is left of what the sets divide.
+        assert_eq!(
+            ["background", "flooding"].map(|name| built.pieces(name)),
+            [0; 2]
+        );
+        // Every volume against the points of a lattice that it owns.
+        let counts = [48, 88, 80].map(f64::from);
+        let (low, high) = (built.owners.extent().low(), built.owners.extent().high());
+        let cell = (high - low) / DVec3::from_array(counts);
+        let mut owned: BTreeMap<usize, f64> = BTreeMap::new();
+        for i in 0..48 {
+            for j in 0..88 {
+                for k in 0..80 {
+                    let at = DVec3::new(f64::from(i), f64::from(j), f64::from(k)) + 0.5;
+                    if let Some(owner) = built.owners.at(low + cell * at) {
+                        *owned.entry(owner).or_default() += cell.element_product();
+                    }
+                }
+            }
+        }
+        for (volume, rules) in built.realisation.volumes.iter().enumerate() {
+            let (measured, counted) = (
+                built.assembly.measured.size_of(volume),
+                owned.get(&volume).copied().unwrap_or(0.0),
+            );
+            let bound = 0.01 * measured + 40.0 * cell.element_product();
+            let name = &rules.name;
+            assert!(
+                (measured - counted).abs() < bound,
+                "{name}: {measured} {counted}"
+            );
+            assert!(built.pieces(name) <= 1, "{name}");
+        }
+        assert_eq!(built.assembly.measured.pieces.len(), solids);
+        let large = owned.values().filter(|size| **size > 5000.0).count();
+        let solids = &built.assembly.measured.pieces;
+        assert_eq!(solids.iter().filter(|one| one.size > 5000.0).count(), large);
+        assert!(large >= 10, "{large}");
+    }
+}
