@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::ellipsoid::Ellipsoid;
-use super::side::Side;
+use super::side::{Side, points_bounds};
 use crate::nurbs::{Curve, KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
 /// What a sheet of a body is.
@@ -82,7 +82,7 @@ impl Body {
     /// the smallest one. A side reaches to infinity.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
-            Self::Trough(trough) => net_bounds(trough.base.net()),
+            Self::Trough(trough) => points_bounds(trough.base.net()),
             Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
             Self::Side(side) => {
                 let least = match **side {
@@ -102,14 +102,6 @@ impl Body {
             Self::Ellipsoid(_) | Self::Side(_) => None,
         }
     }
-}
-
-/// The box of a control net: by the convex hull property it holds the surface.
-fn net_bounds(net: &[DVec3]) -> (DVec3, DVec3) {
-    net.iter()
-        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-            (low.min(*p), high.max(*p))
-        })
 }
 
 /// A trough: a base with u across and v along, closed by a top ruled between its two rims.

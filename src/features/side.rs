@@ -53,10 +53,7 @@ impl Side {
     /// The corners of a box that holds the sheets: that of their control points. Empty (infinite, the wrong way round) if
     /// there are none.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        let points = self.sheets().iter().flat_map(Surface::net);
-        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-            (low.min(*p), high.max(*p))
-        })
+        points_bounds(self.sheets().iter().flat_map(Surface::net))
     }
 
     /// The elevation of a level horizon (m).
@@ -66,6 +63,14 @@ impl Side {
             _ => None,
         }
     }
+}
+
+/// The box of control points: by the convex hull property it holds their surface.
+pub(super) fn points_bounds<'a>(points: impl IntoIterator<Item = &'a DVec3>) -> (DVec3, DVec3) {
+    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points
+        .into_iter()
+        .fold(empty, |(low, high), p| (low.min(*p), high.max(*p)))
 }
 
 /// A horizon with its sheet over a domain.

@@ -98,6 +98,7 @@ fn arc_curves(parts: &Parts<'_>, at: usize) -> ArcCurves {
             }),
         };
     }
+    // On the level sheet that an edge lands on it is no line; but edges on planes need none.
     let line = |side: usize| {
         let (origin, direction) = geometry.on_sheet(source, side, 0.0);
         Some(PlaneCurve::Line { origin, direction })

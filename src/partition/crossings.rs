@@ -174,13 +174,8 @@ pub(super) fn edge_roots(
             return (roots, undecided);
         }
         for (sheet, other) in regions.sheets.iter().enumerate() {
-            let ends = own.sheets();
-            let known = other.region == own.region
-                || ends.contains(&sheet)
-                || ends.iter().any(|end| regions.touch(*end, sheet));
-            let apart = !other.bounds().meets(&own.bounds);
-            let mut own_regions = ends.iter().map(|end| regions.sheets[*end].region);
-            if known || apart || !own_regions.any(|own| regions.meet(own, other.region)) {
+            let wanted = other.region != own.region && regions.may_pierce(own.sheets(), sheet);
+            if !wanted || !other.bounds().meets(&own.bounds) {
                 continue;
             }
             let found = Piercing::new(&own.segments, other, tolerances, clip).run();
@@ -365,10 +360,8 @@ fn triples(
     let mut triples = Vec::new();
     let mut undecided = 0;
     for (sheet, other) in regions.sheets.iter().enumerate() {
-        let known = own.contains(&other.region)
-            || crossing.sheets.iter().any(|end| regions.touch(*end, sheet));
-        let apart = !other.bounds().meets(&bounds);
-        if known || apart || !own.iter().any(|own| regions.meet(*own, other.region)) {
+        let wanted = !own.contains(&other.region) && regions.may_pierce(crossing.sheets, sheet);
+        if !wanted || !other.bounds().meets(&bounds) {
             continue;
         }
         let found = Piercing::new(&segments, other, tolerances, clip).run();

@@ -24,6 +24,7 @@ mod builder;
 mod check;
 mod cone;
 mod crossings;
+mod edge;
 mod faces;
 mod facet;
 mod hermite;

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::PartitionError;
 use super::bounds::Bounds;
+use super::edge::{Edge, Landing, Side};
 use super::pierce::Segment;
 use super::sheet::{BORDERS, Border, Sheet};
 use crate::nurbs::enclosure::Enclosure;
@@ -68,84 +69,6 @@ impl Inside {
             Self::Block(low, high) => p.cmpge(*low).all() && p.cmple(*high).all(),
             Self::Above(level) => p.z > *level,
         }
-    }
-}
-
-/// Where sheets of a region join, along a whole side of each; or where a side lands on a level sheet of another.
-#[derive(Clone, Debug)]
-pub(super) struct Edge {
-    /// The curve, with the parameter of its first sheet's side.
-    pub(super) curve: Curve,
-    pub(super) segments: Vec<Segment>,
-    pub(super) sides: [Side; 2],
-    /// The sheet that the first side's sheet lands on; there is no second side then.
-    pub(super) landing: Option<Landing>,
-    pub(super) region: usize,
-    pub(super) bounds: Bounds,
-}
-
-/// A level sheet under an edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Landing {
-    pub(super) sheet: usize,
-    chart: Chart,
-}
-
-impl Edge {
-    /// The sheets that meet along it.
-    pub(super) fn sheets(&self) -> [usize; 2] {
-        let second = self.landing.map_or(self.sides[1].sheet, |on| on.sheet);
-        [self.sides[0].sheet, second]
-    }
-
-    /// The sides of sheets along it.
-    pub(super) fn borders(&self) -> &[Side] {
-        &self.sides[..if self.landing.is_some() { 1 } else { 2 }]
-    }
-
-    /// Its Bézier piece at t.
-    pub(super) fn segment(&self, t: f64) -> &Segment {
-        let inner = &self.segments[..self.segments.len() - 1];
-        &self.segments[inner.partition_point(|segment| segment.t[1] <= t)]
-    }
-
-    /// Parameters on one of its sheets, and their derivative, at t.
-    pub(super) fn on_sheet(&self, side: usize, sheets: &[Sheet], t: f64) -> (DVec2, DVec2) {
-        match self.landing {
-            Some(on) if side == 1 => {
-                let (point, tangent) = self.segment(t).evaluate(t);
-                (on.chart.at(point), on.chart.along(tangent))
-            }
-            _ => self.sides[side].at(sheets, t),
-        }
-    }
-}
-
-/// An edge as the side of a sheet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Side {
-    pub(super) sheet: usize,
-    pub(super) border: Border,
-    /// The side's running parameter is `shift + scale t`.
-    pub(super) shift: f64,
-    pub(super) scale: f64,
-}
-
-impl Side {
-    /// Parameters on the sheet, and their derivative, at t.
-    pub(super) fn at(&self, sheets: &[Sheet], t: f64) -> (DVec2, DVec2) {
-        let fixed = sheets[self.sheet].at_border(self.border);
-        let running = self.shift + self.scale * t;
-        if self.border.axis() == 0 {
-            (DVec2::new(fixed, running), DVec2::new(0.0, self.scale))
-        } else {
-            (DVec2::new(running, fixed), DVec2::new(self.scale, 0.0))
-        }
-    }
-
-    /// Whether the sheet lies to the left in the direction of growing t.
-    pub(super) fn sheet_is_left(&self) -> bool {
-        self.border.sheet_is_left() == (self.scale > 0.0)
     }
 }
 
@@ -275,6 +198,16 @@ impl Regions {
         self.sheets[a].lands_on.contains(&b) || self.sheets[b].lands_on.contains(&a)
     }
 
+    /// Whether the curve of two sheets is to be looked for on a third one: not where that lands on either of them, or
+    /// either on it, which is known; and not if it matters to neither.
+    pub(super) fn may_pierce(&self, ends: [usize; 2], third: usize) -> bool {
+        let region = self.sheets[third].region;
+        !ends.iter().any(|end| self.touch(*end, third))
+            && ends
+                .iter()
+                .any(|end| self.meet(self.sheets[*end].region, region))
+    }
+
     /// Makes an open border that lies on a level sheet of another region an edge.
     fn land(&mut self, sheet: usize, border: Border, curve: Curve) {
         let region = self.sheets[sheet].region;
@@ -289,8 +222,8 @@ impl Regions {
             }
             let [point, normal, _] = other.plane?;
             let lies = |p: &DVec3| (*p - point).dot(normal).abs() <= tolerance;
-            let chart = Chart::of(&other.surface).filter(|_| curve.points().iter().all(lies))?;
-            Some(Landing { sheet: at, chart })
+            let on_it = curve.points().iter().all(lies);
+            on_it.then(|| Landing::on(at, &other.surface)).flatten()
         });
         let Some(landing) = under else { return };
         let side = Side {
@@ -520,46 +453,6 @@ fn shape(index: usize, region: Region, domain: &Bounds) -> Result<Shape, Partiti
                 may_be_open: true,
             })
         }
-    }
-}
-
-/// The parameters of a parallelogram, from places in space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Chart {
-    origin: DVec3,
-    /// Parameters at the origin.
-    first: DVec2,
-    /// What grows by 1 with u, and with v.
-    rows: [DVec3; 2],
-}
-
-impl Chart {
-    /// The chart of a surface with four control points that are a parallelogram's corners.
-    fn of(surface: &Surface) -> Option<Self> {
-        let [a, b, c, d] = surface.net() else {
-            return None;
-        };
-        let closes = ((*b - *a) - (*d - *c)).length() <= 1e-12 * b.distance(*c);
-        if !closes || surface.is_rational() {
-            return None;
-        }
-        let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
-        let (su, sv) = ((*c - *a) / (u1 - u0), (*b - *a) / (v1 - v0));
-        let normal = su.cross(sv);
-        let size = normal.length_squared();
-        Some(Self {
-            origin: *a,
-            first: DVec2::new(u0, v0),
-            rows: [sv.cross(normal) / size, normal.cross(su) / size],
-        })
-    }
-
-    fn at(&self, point: DVec3) -> DVec2 {
-        self.first + self.along(point - self.origin)
-    }
-
-    fn along(&self, vector: DVec3) -> DVec2 {
-        DVec2::new(self.rows[0].dot(vector), self.rows[1].dot(vector))
     }
 }
 
