@@ -9,75 +9,36 @@
     reason = "a test fails by panicking"
 )]
 
-use std::path::Path;
+mod assembled;
 
-use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
-use clinothem::model::owner::Owners;
-use clinothem::model::plan::AssemblyPlan;
+use assembled::{Built, checked, source, without};
+use clinothem::assembly::{Engine, measure::Piece};
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 use clinothem::model::{Format, Model, Source};
 use glam::{DVec2, DVec3};
 
-struct Built {
-    model: Model,
-    realisation: Realisation,
-    owners: Owners,
-    assembly: Assembly,
-}
-
 fn built(model: Model) -> Built {
-    let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-    let owners = Owners::new(&realisation).unwrap();
-    let plan = AssemblyPlan::new(&realisation).unwrap();
-    let options = Options {
-        engine: Engine::Partition,
-        child: None,
-        threads: 0,
-        proof: proof::Level::Full,
-        seed: model.seed,
-    };
-    let assembly =
-        assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ()).unwrap();
-    Built {
-        model,
-        realisation,
-        owners,
-        assembly,
-    }
+    Built::new(model, &Selection::default(), Engine::Partition).unwrap()
 }
 
 fn from_text(text: &str) -> Model {
-    let source = Source::from_text("set.toml", text, Format::Toml);
-    Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
+    checked(&Source::from_text("set.toml", text, Format::Toml))
 }
 
 fn of_file(name: &str, seed: u64) -> Model {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("models")
-        .join(name)
-        .join(name)
-        .with_extension("toml");
-    let mut model =
-        Model::check(&Source::read(path).unwrap()).unwrap_or_else(|defects| panic!("{defects}"));
+    let mut model = checked(&source(&format!("{name}/{name}")));
     model.seed = seed;
     model
 }
 
-impl Built {
-    fn size(&self, name: &str) -> f64 {
-        let volume = self.realisation.volume(name).unwrap();
-        self.assembly.measured.size_of(volume)
-    }
-
-    fn drawn(&self, parameter: &str) -> f64 {
-        let all = self.realisation.instances.iter().flat_map(|one| &one.drawn);
-        let mut found = all.filter(|(name, _)| name == parameter);
-        found
-            .next()
-            .unwrap_or_else(|| panic!("{parameter} was not drawn"))
-            .1
-    }
+fn drawn(made: &Built, parameter: &str) -> f64 {
+    let all = made.realisation.instances.iter().flat_map(|one| &one.drawn);
+    let mut found = all.filter(|(name, _)| name == parameter);
+    found
+        .next()
+        .unwrap_or_else(|| panic!("{parameter} was not drawn"))
+        .1
 }
 
 const SET: &str = r#"
@@ -163,10 +124,10 @@ fn clinothems_have_the_sizes_that_their_formula_gives_for_any_direction() {
         let sheets: Vec<Sheet> = (1..=4)
             .map(|k| {
                 origin += match k {
-                    1 => made.drawn("first"),
-                    _ => made.drawn(&format!("spacing-{k}")),
+                    1 => drawn(&made, "first"),
+                    _ => drawn(&made, &format!("spacing-{k}")),
                 };
-                let length = made.drawn(&format!("length-{k}"));
+                let length = drawn(&made, &format!("length-{k}"));
                 Sheet { origin, length }
             })
             .collect();
@@ -246,7 +207,7 @@ fn the_coastal_model_is_proven_in_full_and_its_plain_stays_below_its_parasequenc
         .pieces
         .iter()
         .partition(|piece| !made.realisation.volumes[piece.volume].name.contains('/'));
-    let sum = |pieces: &[&assembly::measure::Piece]| pieces.iter().map(|p| p.size).sum::<f64>();
+    let sum = |pieces: &[&Piece]| pieces.iter().map(|p| p.size).sum::<f64>();
     let of_shore = x * y * 21.336;
     assert!((sum(&shore) - of_shore).abs() < 1e-8 * of_shore);
     assert!((sum(&plain) - x * y * (z - 21.336)).abs() < 1e-8 * of_shore);
@@ -260,12 +221,10 @@ fn the_coastal_model_is_proven_in_full_and_its_plain_stays_below_its_parasequenc
 
 #[test]
 fn sheets_flatter_than_can_be_told_apart_and_sets_without_their_top_are_refused() {
-    let refused = |model: &Model, without: &[&str]| {
-        let selection = Selection {
-            without: without.iter().map(ToString::to_string).collect(),
-            max_level: None,
-        };
-        Realisation::new(model, &selection).unwrap_err().to_string()
+    let refused = |model: &Model, ids: &[&str]| {
+        Realisation::new(model, &without(ids))
+            .unwrap_err()
+            .to_string()
     };
     let set = SET.replace("AZIMUTH", "90");
     let flat = refused(&from_text(&(set.clone() + "exponent = 3\ntoe = 0")), &[]);

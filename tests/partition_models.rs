@@ -8,72 +8,25 @@
     reason = "a test fails by panicking"
 )]
 
+mod assembled;
+
 use std::f64::consts::PI;
-use std::path::Path;
 
-use clinothem::assembly::{self, Assembly, AssemblyError, Cancel, Engine, Options, proof};
-use clinothem::model::owner::Owners;
-use clinothem::model::plan::AssemblyPlan;
-use clinothem::model::realisation::Realisation;
-use clinothem::model::selection::Selection;
-use clinothem::model::{Format, Model, Source};
+use assembled::{Built, checked, source, without};
+use clinothem::assembly::{AssemblyError, Engine};
+use clinothem::model::{Format, Source};
 
-struct Built {
-    realisation: Realisation,
-    assembly: Assembly,
+fn assemble(source: &Source, ids: &[&str], engine: Engine) -> Result<Built, AssemblyError> {
+    Built::new(checked(source), &without(ids), engine)
 }
 
-fn assemble(source: &Source, without: &[&str], engine: Engine) -> Result<Built, AssemblyError> {
-    let model = Model::check(source).unwrap_or_else(|defects| panic!("{defects}"));
-    let selection = Selection {
-        without: without.iter().map(ToString::to_string).collect(),
-        max_level: None,
-    };
-    let realisation = Realisation::new(&model, &selection).unwrap();
-    let owners = Owners::new(&realisation).unwrap();
-    let plan = AssemblyPlan::new(&realisation).unwrap();
-    let options = Options {
-        engine,
-        child: None,
-        threads: 0,
-        proof: proof::Level::Full,
-        seed: model.seed,
-    };
-    let assembly = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
-    Ok(Built {
-        realisation,
-        assembly,
-    })
-}
-
-fn contact(name: &str, without: &[&str]) -> Built {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("models/contacts")
-        .join(name)
-        .with_extension("toml");
-    let built = assemble(&Source::read(path).unwrap(), without, Engine::Partition).unwrap();
+fn contact(name: &str, ids: &[&str]) -> Built {
+    let source = source(&format!("contacts/{name}"));
+    let built = assemble(&source, ids, Engine::Partition).unwrap();
     assert_eq!(built.assembly.engine, Engine::Partition);
     // At the first attempt.
     assert!(built.assembly.failed.is_empty());
     built
-}
-
-impl Built {
-    fn volume(&self, name: &str) -> usize {
-        self.realisation.volume(name).unwrap()
-    }
-
-    fn size(&self, name: &str) -> f64 {
-        self.assembly.measured.size_of(self.volume(name))
-    }
-
-    fn pieces(&self, name: &str) -> usize {
-        self.assembly.measured.pieces_of(self.volume(name)).len()
-    }
-
-    fn solids(&self) -> usize {
-        self.assembly.measured.pieces.len()
-    }
 }
 
 fn assert_same(a: f64, b: f64) {
@@ -160,9 +113,8 @@ fn a_body_may_be_removed_altogether() {
 
 #[test]
 fn two_engines_that_know_nothing_of_each_other_make_the_same_solids() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/channel-belt/channel-belt.toml");
     for seed in [3, 8] {
-        let mut source = Source::read(&path).unwrap();
+        let mut source = source("channel-belt/channel-belt");
         source.set("feature.channel.count=6".to_owned());
         source.set(format!("seed={seed}"));
         let [ours, theirs] =

@@ -10,76 +10,43 @@
     reason = "a test fails by panicking"
 )]
 
-use std::collections::BTreeMap;
-use std::path::Path;
+mod assembled;
 
-use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
+use std::collections::BTreeMap;
+
+use assembled::{checked, source, without};
+use clinothem::assembly::Engine;
 use clinothem::features::horizon::Horizon;
-use clinothem::model::owner::Owners;
-use clinothem::model::plan::AssemblyPlan;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::{FeatureKind, HorizonSurface, Model, Source};
+use clinothem::model::{FeatureKind, HorizonSurface, Model};
 use glam::{DVec2, DVec3};
 
-struct Built {
-    model: Model,
-    realisation: Realisation,
-    owners: Owners,
-    assembly: Assembly,
-}
-
 fn model(name: &str, overrides: &[&str]) -> Model {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("models/strata")
-        .join(name)
-        .with_extension("toml");
-    let mut source = Source::read(path).unwrap();
+    let mut source = source(&format!("strata/{name}"));
     for one in overrides {
         source.set((*one).to_owned());
     }
-    Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
+    checked(&source)
 }
 
-fn build(name: &str, overrides: &[&str], without: &[&str]) -> Built {
+fn build(name: &str, overrides: &[&str], ids: &[&str]) -> Built {
     let model = model(name, overrides);
-    let selection = Selection {
-        without: without.iter().map(ToString::to_string).collect(),
-        max_level: None,
-    };
-    let realisation = Realisation::new(&model, &selection).unwrap();
-    let owners = Owners::new(&realisation).unwrap();
-    let plan = AssemblyPlan::new(&realisation).unwrap();
-    let options = Options {
-        engine: Engine::Partition,
-        child: None,
-        threads: 0,
-        proof: proof::Level::Full,
-        seed: model.seed,
-    };
-    let assembly =
-        assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ()).unwrap();
-    Built {
-        model,
-        realisation,
-        owners,
-        assembly,
+    Built(assembled::Built::new(model, &without(ids), Engine::Partition).unwrap())
+}
+
+/// With what is asked of strata.
+struct Built(assembled::Built);
+
+impl std::ops::Deref for Built {
+    type Target = assembled::Built;
+
+    fn deref(&self) -> &assembled::Built {
+        &self.0
     }
 }
 
 impl Built {
-    fn volume(&self, name: &str) -> usize {
-        self.realisation.volume(name).unwrap()
-    }
-
-    fn size(&self, name: &str) -> f64 {
-        self.assembly.measured.size_of(self.volume(name))
-    }
-
-    fn pieces(&self, name: &str) -> usize {
-        self.assembly.measured.pieces_of(self.volume(name)).len()
-    }
-
     /// All volumes whose names begin so.
     fn sum(&self, start: &str) -> f64 {
         let names = self.realisation.volumes.iter().map(|one| one.name.as_str());
