@@ -37,9 +37,19 @@ fn hull(patch: &Patch, [low, high]: [DVec2; 2], halvings: usize) -> Bounds {
     if halvings == 0 || (from.cmpge(low).all() && to.cmple(high).all()) {
         return patch.bounds;
     }
-    let halves = |patch: &Patch, along: Along| patch.halves(along, |_| true).into_iter().flatten();
-    let quarters = halves(patch, Along::U).flat_map(|half| halves(&half, Along::V));
-    quarters.fold(Bounds::EMPTY, |all, part| {
-        all.and(hull(&part, [low, high], halvings - 1))
-    })
+    let mut all = Bounds::EMPTY;
+    patch.halve(
+        Along::U,
+        |_| true,
+        |half| {
+            half.halve(
+                Along::V,
+                |_| true,
+                |quarter| {
+                    all = all.and(hull(&quarter, [low, high], halvings - 1));
+                },
+            );
+        },
+    );
+    all
 }

@@ -7,6 +7,9 @@ use glam::DVec3;
 use super::bounds::Bounds;
 use super::patch::Patch;
 
+/// Keeps a share defined where neither of two ranges has a width.
+const TINY: f64 = 1e-12;
+
 /// A patch of a sheet, or a part of one.
 pub(super) struct Facet<'a> {
     pub(super) patch: Cow<'a, Patch>,
@@ -28,21 +31,22 @@ impl<'a> Facet<'a> {
         self.normals.map_or(f64::INFINITY, |normals| normals.1)
     }
 
-    /// Those of its halves, across the longer direction, of which first the box and then the patch are wanted.
-    pub(super) fn halves(
+    /// Hands on those of its halves, across the longer direction, of which first the box and then the patch are wanted.
+    pub(super) fn halve(
         &self,
         box_is_wanted: impl Fn(&Bounds) -> bool,
         is_wanted: impl Fn(&Patch) -> bool,
-    ) -> impl Iterator<Item = Facet<'static>> {
+        mut each: impl FnMut(&Facet<'static>),
+    ) {
         self.patch
-            .halves(self.patch.longer(), box_is_wanted)
-            .into_iter()
-            .flatten()
-            .filter(move |half| is_wanted(half))
-            .map(|half| Facet {
-                normals: half.normals(),
-                patch: Cow::Owned(half),
-            })
+            .halve(self.patch.longer(), box_is_wanted, |half| {
+                if is_wanted(&half) {
+                    each(&Facet {
+                        normals: half.normals(),
+                        patch: Cow::Owned(half),
+                    });
+                }
+            });
     }
 
     /// Whether no normal of one facet is parallel to one of another, by their cones.
@@ -53,19 +57,31 @@ impl<'a> Facet<'a> {
         }
     }
 
-    /// Whether no normal of one facet is parallel to one of another, as far as their extremes tell along the
-    /// direction in which their axes lean from each other.
+    /// Whether no normal of one facet is parallel to one of another, as far as products of legs tell on both sides of a
+    /// plane between their corners' normals.
     pub(super) fn leans_from(&self, other: &Facet<'_>) -> bool {
         let (Some((a, _)), Some((b, _))) = (self.normals, other.normals) else {
             return false;
         };
         let b = if a.dot(b) < 0.0 { -b } else { b };
-        let upright = a + b;
-        let along = a - b;
-        let slopes = |facet: &Facet<'_>| facet.patch.slopes(along, upright);
-        match (slopes(self), slopes(other)) {
-            (Some(own), Some(others)) => own[0] > others[1] || others[0] > own[1],
-            _ => false,
+        let (along, upright) = (a - b, a + b);
+        let slopes = |facet: &Facet<'_>| facet.patch.corner_slopes(along, upright);
+        let (Some(own), Some(others)) = (slopes(self), slopes(other)) else {
+            return false;
+        };
+        let (steep, [high, most], flat, [least, low]) = if own[0] > others[1] {
+            (self, own, other, others)
+        } else {
+            (other, others, self, own)
+        };
+        // Written so that NaN fails too.
+        if !(high > low) {
+            return false;
         }
+        // Nearer to the one whose normals vary less.
+        let (above, below) = (most - high, low - least);
+        let share = (below + TINY) / (above + below + 2.0 * TINY);
+        let between = along - (low + share * (high - low)) * upright;
+        steep.patch.all_lean(between, upright) && flat.patch.all_lean(-between, upright)
     }
 }

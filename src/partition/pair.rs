@@ -45,6 +45,63 @@ pub(super) enum Closing {
     Fixed(usize, f64),
 }
 
+/// Whether parameters lie within ranges.
+pub(super) fn lies(q: &[f64; 4], ranges: &[[f64; 2]; 4]) -> bool {
+    q.iter()
+        .zip(ranges)
+        .all(|(x, [low, high])| low < x && x < high)
+}
+
+/// A step of Newton's method.
+pub(super) struct Step {
+    by: [f64; 4],
+    residual: f64,
+    moved: f64,
+}
+
+impl Step {
+    /// The step from parameters with points and first derivatives of both sheets there.
+    pub(super) fn new(
+        [a, b]: &[(DVec3, DVec3, DVec3); 2],
+        q: &[f64; 4],
+        closing: Closing,
+    ) -> Option<Self> {
+        let ((pa, au, av), (pb, bu, bv)) = (*a, *b);
+        let gap = pa - pb;
+        let mut matrix = [[0.0; 4]; 4];
+        let mut right = [0.0; 4];
+        for i in 0..3 {
+            matrix[i] = [au[i], av[i], -bu[i], -bv[i]];
+            right[i] = -gap[i];
+        }
+        match closing {
+            Closing::Plane(normal, point) => {
+                let half = 0.5 * normal;
+                matrix[3] = [half.dot(au), half.dot(av), half.dot(bu), half.dot(bv)];
+                right[3] = -normal.dot(0.5 * (pa + pb) - point);
+            }
+            Closing::Fixed(k, value) => {
+                // In the units of the others, so that pivots compare.
+                let unit = [au, av, bu, bv][k].length();
+                matrix[3][k] = unit;
+                right[3] = unit * (value - q[k]);
+            }
+        }
+        let by = solve(matrix, right)?;
+        Some(Self {
+            by,
+            residual: gap.abs().element_sum() + right[3].abs(),
+            moved: (au * by[0] + av * by[1]).length() + (bu * by[2] + bv * by[3]).length(),
+        })
+    }
+
+    pub(super) fn apply(&self, q: &mut [f64; 4]) {
+        for (x, by) in q.iter_mut().zip(self.by) {
+            *x += by;
+        }
+    }
+}
+
 /// Two sheets of different regions.
 #[derive(Clone, Copy)]
 pub(super) struct Pair<'a> {
@@ -55,60 +112,43 @@ pub(super) struct Pair<'a> {
 impl Pair<'_> {
     /// Moves parameters to a common point of both sheets. `false` if it does not converge near them.
     pub(super) fn newton(&self, q: &mut [f64; 4], closing: Closing, most: usize) -> bool {
+        // A third of a sheet's parameters beyond its borders.
+        let around: [[f64; 2]; 4] = std::array::from_fn(|i| {
+            let (sheet, axis) = (self.sheets[i / 2], i % 2);
+            let slack = 0.3 * sheet.length(axis);
+            [sheet.low(axis) - slack, sheet.high(axis) + slack]
+        });
+        self.newton_within(q, closing, most, &around)
+    }
+
+    /// As [`Self::newton`], given up as soon as the parameters leave their ranges.
+    pub(super) fn newton_within(
+        &self,
+        q: &mut [f64; 4],
+        closing: Closing,
+        most: usize,
+        ranges: &[[f64; 2]; 4],
+    ) -> bool {
         for _ in 0..most {
-            let (pa, au, av) = self.sheets[0].first_jet(q[0], q[1]);
-            let (pb, bu, bv) = self.sheets[1].first_jet(q[2], q[3]);
-            let gap = pa - pb;
-            let mut matrix = [[0.0; 4]; 4];
-            let mut right = [0.0; 4];
-            for i in 0..3 {
-                matrix[i] = [au[i], av[i], -bu[i], -bv[i]];
-                right[i] = -gap[i];
-            }
-            let mut residual = gap.abs().element_sum();
-            match closing {
-                Closing::Plane(normal, point) => {
-                    let half = 0.5 * normal;
-                    matrix[3] = [half.dot(au), half.dot(av), half.dot(bu), half.dot(bv)];
-                    right[3] = -normal.dot(0.5 * (pa + pb) - point);
-                    residual += right[3].abs();
-                }
-                Closing::Fixed(k, value) => {
-                    // In the units of the others, so that pivots compare.
-                    let unit = [au, av, bu, bv][k].length();
-                    matrix[3][k] = unit;
-                    right[3] = unit * (value - q[k]);
-                    residual += right[3].abs();
-                }
-            }
-            let Some(step) = solve(matrix, right) else {
+            let jets = [
+                self.sheets[0].first_jet(q[0], q[1]),
+                self.sheets[1].first_jet(q[2], q[3]),
+            ];
+            let Some(step) = Step::new(&jets, q, closing) else {
                 return false;
             };
-            for i in 0..4 {
-                q[i] += step[i];
-            }
-            if !self.is_near(q) {
+            step.apply(q);
+            if !lies(q, ranges) {
                 return false;
             }
-            let moved =
-                (au * step[0] + av * step[1]).length() + (bu * step[2] + bv * step[3]).length();
             if let Closing::Fixed(k, value) = closing {
                 q[k] = value;
             }
-            if residual < self.tolerances.residual && moved < self.tolerances.step {
+            if step.residual < self.tolerances.residual && step.moved < self.tolerances.step {
                 return true;
             }
         }
         false
-    }
-
-    /// Within a third of a sheet's parameters beyond its borders.
-    fn is_near(&self, q: &[f64; 4]) -> bool {
-        (0..4).all(|i| {
-            let (sheet, axis) = (self.sheets[i / 2], i % 2);
-            let slack = 0.3 * sheet.length(axis);
-            sheet.low(axis) - slack < q[i] && q[i] < sheet.high(axis) + slack
-        })
     }
 
     /// The curve's node at a common point, running along `towards` if given. `None` where the sheets touch.

@@ -4,20 +4,17 @@
 //! patch may be evaluated outside of its own parameters: its polynomial goes on.
 
 mod evaluate;
+mod normals;
 
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
-use super::cone::cone;
 
 pub(super) use evaluate::{Jet, Slice};
 
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
-
-/// Most legs along v of patches whose normals' slopes are asked for: of 4 × 4 control points there are 12.
-const LANES: usize = 12;
 
 /// One of the two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,33 +115,33 @@ impl Patch {
         }
     }
 
-    /// Those of its two halves (de Casteljau) whose boxes are wanted.
-    pub(super) fn halves(
+    /// Hands on those of its two halves (de Casteljau) whose boxes are wanted.
+    pub(super) fn halve(
         &self,
         along: Along,
         wanted: impl Fn(&Bounds) -> bool,
-    ) -> [Option<Self>; 2] {
+        mut each: impl FnMut(Self),
+    ) {
         let [u, v] = self.middle();
         let (u, v) = match along {
             Along::U => ([[self.u[0], u], [u, self.u[1]]], [self.v; 2]),
             Along::V => ([self.u; 2], [[self.v[0], v], [v, self.v[1]]]),
         };
-        let half = |net: Net, u: [f64; 2], v: [f64; 2]| {
+        for (k, net) in self.half_nets(along).into_iter().enumerate() {
             let bounds = Bounds::of(points(&net, self.rational));
-            wanted(&bounds).then(|| {
-                let mut patch = Self {
-                    net,
-                    u,
-                    v,
-                    bounds,
-                    ..*self
-                };
-                patch.measure();
-                patch
-            })
-        };
-        let [low, high] = self.half_nets(along);
-        [half(low, u[0], v[0]), half(high, u[1], v[1])]
+            if !wanted(&bounds) {
+                continue;
+            }
+            let mut half = Self {
+                net,
+                u: u[k],
+                v: v[k],
+                bounds,
+                ..*self
+            };
+            half.measure();
+            each(half);
+        }
     }
 
     fn half_nets(&self, along: Along) -> [Net; 2] {
@@ -171,61 +168,6 @@ impl Patch {
         [low, high]
     }
 
-    /// The range of the slopes of its normals: how far they lean along a direction, against upright. `None` if some
-    /// may be level, and for rational patches.
-    ///
-    /// Tangents along u are sums of legs along u, those along v of legs along v, with positive factors; so normals
-    /// are such sums of the products of legs.
-    pub(super) fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
-        if self.rational {
-            return None;
-        }
-        let [legs_u, legs_v] = self.legs();
-        if legs_v.len() > LANES {
-            return None;
-        }
-        // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
-        let lanes: [[f64; LANES]; 3] = std::array::from_fn(|axis| {
-            std::array::from_fn(|k| legs_v[k.min(legs_v.len() - 1)][axis])
-        });
-        let used = legs_v.len().next_multiple_of(4).min(LANES);
-        let sign = legs_u[0].cross(legs_v[0]).dot(upright).signum();
-        let mut least = [f64::INFINITY; LANES];
-        let mut range = [[f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]];
-        let smaller = |a: f64, b: f64| if a < b { a } else { b };
-        for a in legs_u {
-            let (lean, rise) = (along.cross(a) * sign, upright.cross(a) * sign);
-            for k in 0..used {
-                let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
-                let height = x * rise.x + y * rise.y + z * rise.z;
-                let slope = (x * lean.x + y * lean.y + z * lean.z) / height;
-                least[k] = smaller(height, least[k]);
-                range[0][k] = smaller(slope, range[0][k]);
-                range[1][k] = -smaller(-slope, -range[1][k]);
-            }
-        }
-        let all = |lanes: &[f64; LANES]| lanes.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = range[1].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        (all(&least) > 0.0).then(|| [all(&range[0]), high])
-    }
-
-    /// Steps between neighbouring control points, along u and along v.
-    fn legs(&self) -> [SmallVec<[DVec3; 16]>; 2] {
-        let points: SmallVec<[DVec3; 16]> = points(&self.net, self.rational).collect();
-        let leg = |(from, to): (&DVec3, &DVec3)| *to - *from;
-        [
-            points
-                .iter()
-                .zip(&points[self.columns..])
-                .map(leg)
-                .collect(),
-            points
-                .chunks_exact(self.columns)
-                .flat_map(|row| row.iter().zip(&row[1..]).map(leg))
-                .collect(),
-        ]
-    }
-
     fn thin_direction(&self) -> DVec3 {
         let corner = |i: usize, j: usize| self.control(i * (self.rows - 1), j * (self.columns - 1));
         let along_u = (corner(1, 0) - corner(0, 0)) + (corner(1, 1) - corner(0, 1));
@@ -243,63 +185,9 @@ impl Patch {
             },
         )
     }
-
-    /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
-    ///
-    /// Legs of the net hold all tangents in cones about their means (hodographs lie in the hull of their
-    /// control vectors), and a product of vectors of two cones leans from the product of the axes by at
-    /// most `(sin α + sin β) / sin γ`-like amounts, γ the angle between the axes. Rational patches scale
-    /// hodographs by positive functions, and their legs still bound the directions well enough here:
-    /// cones only decide how deep to look.
-    pub(super) fn normals(&self) -> Option<(DVec3, f64)> {
-        let [legs_u, legs_v] = self.legs();
-        let (a, alpha) = cone(&legs_u)?;
-        let (b, beta) = cone(&legs_v)?;
-        let cross = a.cross(b);
-        let gamma = cross.length();
-        let lean = (alpha + beta + alpha * beta) / gamma;
-        (gamma > 1e-6 && lean < 1.0).then(|| (cross / gamma, lean))
-    }
 }
 
 fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {
     net.iter()
         .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn slopes_of_sampled_normals_lie_within_the_bounds_from_legs() {
-        // A bowl that is twisted, and rougher along u.
-        let net: Vec<DVec3> = (0..16)
-            .map(|k| (f64::from(k / 4) - 1.5, f64::from(k % 4) - 1.5))
-            .map(|(x, y)| DVec3::new(x, y, 0.2 * x * x + 0.05 * y * y + 0.03 * x * y))
-            .collect();
-        let patch = Patch::new(4, &net, &[1.0; 16], [0.0, 1.0], [0.0, 1.0]);
-        for along in [DVec3::X, DVec3::Y, DVec3::new(-1.0, 0.4, 0.1)] {
-            let [low, high] = patch.slopes(along, DVec3::Z).unwrap();
-            let mut sampled = [f64::INFINITY, f64::NEG_INFINITY];
-            for k in 0..=100 {
-                let (_, u, v) = patch.first_jet(f64::from(k / 10) / 10.0, f64::from(k % 11) / 10.0);
-                let normal = u.cross(v);
-                let slope = normal.dot(along) / normal.z;
-                assert!(low <= slope && slope <= high);
-                sampled = [sampled[0].min(slope), sampled[1].max(slope)];
-            }
-            // Bounds that say nothing would hold them too.
-            assert!(high - low < 2.0 * (sampled[1] - sampled[0]));
-        }
-    }
-
-    #[test]
-    fn a_patch_that_stands_upright_somewhere_has_no_slopes() {
-        let net =
-            [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
-        let patch = Patch::new(2, &net, &[1.0; 4], [0.0, 1.0], [0.0, 1.0]);
-        assert!(patch.slopes(DVec3::X, DVec3::Z).is_none());
-    }
 }

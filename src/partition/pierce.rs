@@ -221,9 +221,11 @@ impl<'a> Piercing<'a> {
                 self.pieces(&half, facet);
             }
         } else {
-            for half in facet.halves(|bounds| bounds.meets(&segment.bounds), |_| true) {
-                self.pieces(segment, &half);
-            }
+            facet.halve(
+                |bounds| bounds.meets(&segment.bounds),
+                |_| true,
+                |half| self.pieces(segment, half),
+            );
         }
     }
 

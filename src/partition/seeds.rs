@@ -7,7 +7,7 @@
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
-use super::pair::{Closing, Pair};
+use super::pair::{Closing, Pair, Step, lies};
 use super::patch::Patch;
 use super::sheet::NodeKind;
 
@@ -19,6 +19,8 @@ const MOST: usize = 400_000;
 const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
 const FLAT: f64 = 0.35;
+/// An attempt to land is given up when it leaves the patches by this fraction of their size.
+const REACH: f64 = 0.5;
 /// While patches are halved their sizes are kept within this factor.
 const RATIO: f64 = 4.0;
 
@@ -117,30 +119,28 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         };
         let (halved, other) = if first { (a, b) } else { (b, a) };
         let slack = self.slack();
-        let halves = halved.halves(
+        halved.halve(
             |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
             |half| !apart(half, &other.patch, slack),
+            |half| {
+                if first {
+                    self.patches(half, b);
+                } else {
+                    self.patches(a, half);
+                }
+            },
         );
-        for half in halves {
-            if first {
-                self.patches(&half, b);
-            } else {
-                self.patches(a, &half);
-            }
-        }
     }
 
     /// Tries to land on the curve between two patches. Whether there is one, known, or new and wanted.
     fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>, wanted: impl Fn(&Node) -> bool) -> bool {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
-        let within = |q: &[f64; 4]| {
-            (0..4).all(|i| {
-                let [low, high] = rectangles[i];
-                let slack = 0.02 * (high - low);
-                low - slack <= q[i] && q[i] <= high + slack
-            })
+        let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
+        let within = grown(0.02);
+        let known = |branch: &Branch| {
+            let passes = |node: &Node| lies(&node.parameters(), &within);
+            branch.nodes.iter().any(passes)
         };
-        let known = |branch: &Branch| branch.nodes.iter().any(|node| within(&node.parameters()));
         if self.branches.iter().any(known) {
             return true;
         }
@@ -148,19 +148,29 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let a_is_smaller = a.patch.bounds.extent() <= b.patch.bounds.extent();
         let (small, large) = if a_is_smaller { (a, b) } else { (b, a) };
         let [u, v] = small.patch.middle();
-        let (point, su, sv) = small.patch.first_jet(u, v);
-        let [s, t] = nearest(&large.patch, point);
-        let (_, lu, lv) = large.patch.first_jet(s, t);
-        let Some(tangent) = su.cross(sv).cross(lu.cross(lv)).try_normalize() else {
+        let small = small.patch.first_jet(u, v);
+        let [s, t] = nearest(&large.patch, small.0);
+        let large = large.patch.first_jet(s, t);
+        let normals = [small, large].map(|(_, u, v)| u.cross(v));
+        let Some(tangent) = normals[0].cross(normals[1]).try_normalize() else {
             return false;
         };
-        let mut q = if a_is_smaller {
-            [u, v, s, t]
+        let (mut q, jets) = if a_is_smaller {
+            ([u, v, s, t], [small, large])
         } else {
-            [s, t, u, v]
+            ([s, t, u, v], [large, small])
         };
-        let closing = Closing::Plane(tangent, point);
-        if !self.pair.newton(&mut q, closing, 10) || !within(&q) {
+        let closing = Closing::Plane(tangent, small.0);
+        let around = grown(REACH);
+        // Most attempts end with the first step, for which both patches are known.
+        let Some(step) = Step::new(&jets, &q, closing) else {
+            return false;
+        };
+        step.apply(&mut q);
+        let landed = lies(&q, &around)
+            && self.pair.newton_within(&mut q, closing, 10, &around)
+            && lies(&q, &within);
+        if !landed {
             return false;
         }
         let [a, b] = self.pair.sheets;
@@ -222,6 +232,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     pub(super) fn gave_up(&self) -> bool {
         self.halvings > MOST
     }
+}
+
+/// A range with a fraction of its length more at both ends.
+fn grow(low: f64, high: f64, by: f64) -> [f64; 2] {
+    let slack = by * (high - low);
+    [low - slack, high + slack]
 }
 
 /// About where a nearly flat patch is nearest to a point.

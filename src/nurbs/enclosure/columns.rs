@@ -3,11 +3,13 @@
 //! Every patch is halved until its view from above is close to linear ([`Projection`]). What never becomes so (folds,
 //! vertical faces, poles) ends in thin **critical** parts; a ray that meets one must be replaced by an oblique one.
 
-use super::Shell;
 use super::projection::{Projection, Verdict};
+use super::shade::{Shade, Tree};
 use super::tally::{Outcome, Tally};
+use super::{Piece, Shell};
 use crate::nurbs::bezier::{Along, Jet, Patch, Region, halves};
 use glam::{DVec2, DVec3, Vec3Swizzles, Vec4Swizzles};
+use std::sync::OnceLock;
 
 /// Critical parts are at most this long, as a fraction of the shell's size, …
 const CRITICAL_LENGTH: f64 = 1.0 / 256.0;
@@ -15,33 +17,24 @@ const CRITICAL_LENGTH: f64 = 1.0 / 256.0;
 const CRITICAL_WIDTH: f64 = 1.0 / 8192.0;
 /// A part is critical at the latest after so many halvings.
 const MOST_HALVINGS: usize = 40;
-/// Parts in a leaf of the tree.
-const PER_NODE: usize = 4;
-
+/// The patches, each cut into its parts when a ray first comes near it: most rays of a model see few of them.
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
-    nodes: Vec<Node>,
-    parts: Vec<Part>,
+    size: f64,
+    patches: Tree<Cut>,
 }
 
-/// A node of the tree, depth first: the left child follows its parent.
+/// A patch and, once they were asked for, its parts.
 #[derive(Clone, Debug)]
-struct Node {
-    low: DVec2,
-    high: DVec2,
-    top: f64,
-    /// The node to go on with when this one is done or missed.
-    skip: usize,
-    /// The parts of a leaf; none in an inner node.
-    parts: std::ops::Range<usize>,
+struct Cut {
+    shade: Shade,
+    patch: usize,
+    parts: OnceLock<Tree<Part>>,
 }
 
 #[derive(Clone, Debug)]
 struct Part {
-    low: DVec2,
-    high: DVec2,
-    top: f64,
-    patch: usize,
+    shade: Shade,
     region: Region,
     shape: Shape,
 }
@@ -59,43 +52,35 @@ enum Shape {
 
 impl Columns {
     pub(super) fn new(shell: &Shell, size: f64) -> Self {
-        let mut parts = Vec::new();
-        for (k, piece) in shell.patches.iter().enumerate() {
-            cut(shell, k, &piece.patch, size, &mut parts);
+        let whole = |(patch, piece): (usize, &Piece)| Cut {
+            shade: Shade::new(shell, piece.low, piece.high),
+            patch,
+            parts: OnceLock::new(),
+        };
+        let patches = shell.patches.iter().enumerate().map(whole).collect();
+        Self {
+            size,
+            patches: Tree::new(patches, |cut| &cut.shade),
         }
-        let mut nodes = Vec::new();
-        grow(&mut nodes, &mut parts, 0);
-        Self { nodes, parts }
     }
 
     /// The crossings of the ray straight up from p.
     pub(super) fn cast(&self, shell: &Shell, p: DVec3) -> Outcome {
         let mut tally = Tally::default();
-        let mut k = 0;
-        while let Some(node) = self.nodes.get(k) {
-            if !covers(p, node.low, node.high, node.top) {
-                k = node.skip;
-                continue;
-            }
-            for part in &self.parts[node.parts.clone()] {
-                if covers(p, part.low, part.high, part.top) && !part.count(shell, p, &mut tally) {
-                    return tally.outcome();
-                }
-            }
-            k += 1;
-        }
+        self.patches.all_over(p, |whole| {
+            let piece = &shell.patches[whole.patch];
+            let parts = whole
+                .parts
+                .get_or_init(|| Tree::new(cut(shell, &piece.patch, self.size), |part| &part.shade));
+            parts.all_over(p, |part| part.count(shell, piece, p, &mut tally))
+        });
         tally.outcome()
     }
 }
 
-/// Whether the ray up from p meets a box that reaches down for ever.
-fn covers(p: DVec3, low: DVec2, high: DVec2, top: f64) -> bool {
-    p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z <= top
-}
-
 impl Part {
     /// Counts the part's crossing; false if nothing more can come of this ray.
-    fn count(&self, shell: &Shell, p: DVec3, tally: &mut Tally) -> bool {
+    fn count(&self, shell: &Shell, piece: &Piece, p: DVec3, tally: &mut Tally) -> bool {
         let projection = match &self.shape {
             Shape::Regular(projection) => projection,
             Shape::Critical { normal, low, high } => {
@@ -115,7 +100,6 @@ impl Part {
             }
             Verdict::Near(guess) => guess,
         };
-        let piece = &shell.patches[self.patch];
         let (in_u, in_v) = self.region.lengths();
         let jet = |s: DVec2| {
             let (s, t) = self.region.at(s.x, s.y);
@@ -134,7 +118,8 @@ impl Part {
 }
 
 /// Cuts a patch into regular and critical parts.
-fn cut(shell: &Shell, k: usize, patch: &Patch, size: f64, parts: &mut Vec<Part>) {
+fn cut(shell: &Shell, patch: &Patch, size: f64) -> Vec<Part> {
+    let mut parts = Vec::new();
     let mut stack = vec![(patch.clone(), Region::UNIT, 0)];
     while let Some((patch, region, halvings)) = stack.pop() {
         let (low, high) = patch.hull();
@@ -157,14 +142,12 @@ fn cut(shell: &Shell, k: usize, patch: &Patch, size: f64, parts: &mut Vec<Part>)
             Shape::Critical { normal, low, high }
         };
         parts.push(Part {
-            low: low.xy() - 2.0 * shell.tolerance,
-            high: high.xy() + 2.0 * shell.tolerance,
-            top: high.z + shell.width,
-            patch: k,
+            shade: Shade::new(shell, low, high),
             region,
             shape,
         });
     }
+    parts
 }
 
 /// Two parallel lines, seen from above, that the patch lies between: their normal and places. They run along the longest
@@ -243,39 +226,4 @@ fn rougher(patch: &Patch) -> Along {
     } else {
         Along::V
     }
-}
-
-/// Adds the tree of the parts, which it reorders; `first` is the number of the first one.
-fn grow(nodes: &mut Vec<Node>, parts: &mut [Part], first: usize) {
-    let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY, f64::NEG_INFINITY);
-    let (low, high, top) = parts.iter().fold(empty, |(low, high, top), part| {
-        (low.min(part.low), high.max(part.high), top.max(part.top))
-    });
-    let own = nodes.len();
-    let leaf = parts.len() <= PER_NODE;
-    let held = if leaf {
-        first..first + parts.len()
-    } else {
-        first..first
-    };
-    nodes.push(Node {
-        low,
-        high,
-        top,
-        skip: 0,
-        parts: held,
-    });
-    if !leaf {
-        let size = high - low;
-        let middle = |part: &Part| {
-            let sum = part.low + part.high;
-            if size.x >= size.y { sum.x } else { sum.y }
-        };
-        let half = parts.len() / 2;
-        parts.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)));
-        let (left, right) = parts.split_at_mut(half);
-        grow(nodes, left, first);
-        grow(nodes, right, first + half);
-    }
-    nodes[own].skip = nodes.len();
 }

@@ -18,6 +18,7 @@ mod closure;
 mod columns;
 mod oblique;
 mod projection;
+mod shade;
 mod tally;
 
 use super::Surface;
