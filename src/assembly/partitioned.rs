@@ -141,10 +141,23 @@ fn partition(
             .iter()
             .any(|a| other.iter().any(|b| plan.rules.may_meet(*a, *b))),
     };
+    let told = told(plan);
+    let hides = |region: usize, inside: bool, other: usize| {
+        // Nothing matters outside of the domain.
+        let outside = region >= first_bound && inside != within[region - first_bound];
+        let is_hidden = |volume: &usize| {
+            let facts = &told[region][usize::from(inside)];
+            facts
+                .iter()
+                .any(|(by, holds)| by == volume && !holds || plan.rules.hides(*by, *holds, *volume))
+        };
+        outside || !volumes[other].is_empty() && volumes[other].iter().all(is_hidden)
+    };
     let settings = partition::Options {
         tightness: remedy.tightness,
         stop: &|| cancel.is_cancelled(),
         meet: &meet,
+        hides: &hides,
     };
     let run = || {
         Ok(partition::partition(
@@ -195,6 +208,27 @@ fn volumes(plan: &AssemblyPlan) -> Vec<Vec<usize>> {
         }
     }
     volumes
+}
+
+/// By region, outside and inside of it: the volumes that certainly hold a place there, or certainly do not.
+fn told(plan: &AssemblyPlan) -> Vec<[Vec<(usize, bool)>; 2]> {
+    let first_shell = 1 + plan.lids.len();
+    let count = first_shell + plan.shells.len() + plan.bounds().count();
+    let mut told = vec![[Vec::new(), Vec::new()]; count];
+    for body in &plan.bodies {
+        let [outside, inside] = &mut told[first_shell + body.shell];
+        outside.push((body.volume, false));
+        if body.below.is_none() {
+            inside.push((body.volume, true));
+        }
+        let over = match body.below {
+            None => continue,
+            Some(Cover::Lid(lid)) => 1 + lid,
+            Some(Cover::Horizon(shell)) => first_shell + shell,
+        };
+        told[over][1].push((body.volume, false));
+    }
+    told
 }
 
 impl Membership for Side {

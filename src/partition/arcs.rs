@@ -77,7 +77,10 @@ fn along(
         }
         let probe = t[0] + PROBE * (t[1] - t[0]);
         let point = geometry.point(track.source, probe);
-        let sides = sides(geometry, own, point);
+        let Some(sides) = sides(geometry, own, point) else {
+            before = None;
+            continue;
+        };
         // Outside of the domain nobody asks.
         if let (Some(before), Some(region @ 1..)) = (before.take(), pair[0].region) {
             let flipped = |at: usize| before[at] != sides[at];
@@ -96,7 +99,9 @@ fn along(
         } else {
             cross(geometry, track, probe, &sides, labels)
         };
-        before = Some(sides);
+        // On stretches of branches that bound nothing, points of third sheets are not looked for.
+        let is_cut = !matches!(track.source, Source::Crossing(_)) || !flaps.is_empty();
+        before = is_cut.then_some(sides);
         if !flaps.is_empty() {
             arcs.push(Arc {
                 track: at,
@@ -138,19 +143,17 @@ fn is_landing(geometry: Geometry<'_>, source: Source) -> bool {
     matches!(source, Source::Edge(edge) if geometry.regions.edges[edge].landing.is_some())
 }
 
-/// Which regions hold a point; the arc's own, and those that matter to neither of them, are left out.
-fn sides(geometry: Geometry<'_>, own: [usize; 2], point: DVec3) -> Vec<bool> {
+/// Which regions hold a point; the arc's own, those that matter to neither of them and those that others hide are left
+/// out. `None` if one of its own is hidden: then nothing changes across it.
+fn sides(geometry: Geometry<'_>, own: [usize; 2], point: DVec3) -> Option<Vec<bool>> {
     let regions = geometry.regions;
     let in_domain = own.contains(&0) || regions.inside[0].holds(point);
-    let mut sides = vec![false; regions.inside.len()];
-    sides[0] = in_domain && !own.contains(&0);
-    if in_domain {
-        for (region, inside) in regions.inside.iter().enumerate().skip(1) {
-            let asked = !own.contains(&region) && own.iter().any(|own| regions.meet(*own, region));
-            sides[region] = asked && inside.holds(point);
-        }
+    if !in_domain {
+        return Some(vec![false; regions.inside.len()]);
     }
-    sides
+    regions
+        .relations
+        .sides(&own, |region| regions.inside[region].holds(point))
 }
 
 /// Around an edge of a region: its inside and its outside.

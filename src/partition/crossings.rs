@@ -9,14 +9,14 @@ use rayon::prelude::*;
 
 use super::bounds::Bounds;
 use super::check::Faults;
-use super::hermite::{self, Branch, End, Node};
+use super::hermite::{Branch, End, Node};
 use super::march::{March, Stop};
 use super::pair::{Pair, Tolerances};
-use super::pierce::{Piercing, Root, Segment};
+use super::pierce::{Piercing, Root};
 use super::region::Regions;
 use super::seeds::Search;
 use super::sheet::Border;
-use super::solve::solve;
+use super::triples::Thirds;
 
 /// An edge passing through a sheet.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ pub(super) struct Triple {
     pub(super) t: f64,
     pub(super) point: DVec3,
     /// Parameters on the branch's sheets.
-    q: [f64; 4],
+    pub(super) q: [f64; 4],
 }
 
 /// Everything that was found.
@@ -124,7 +124,10 @@ impl Crossings {
         let found: Vec<(Vec<Triple>, usize)> = (0..crossings.len())
             .into_par_iter()
             .filter(|_| !stop())
-            .map(|at| triples(regions, &crossings, at, tolerances, clip))
+            .map(|at| {
+                let thirds = Thirds::of(regions, &crossings, at, tolerances, clip).find();
+                (thirds.found, thirds.undecided)
+            })
             .collect();
         let mut all = Vec::new();
         for (triples, undecided) in found {
@@ -152,7 +155,7 @@ fn pairs(regions: &Regions, clip: &Bounds, tolerances: Tolerances) -> Vec<[usize
         for (j, b) in sheets.iter().enumerate().skip(i + 1) {
             let near = around.meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
             let apart = a.region == b.region || regions.touch(i, j);
-            if near && !apart && regions.meet(a.region, b.region) {
+            if near && !apart && regions.relations.meet(a.region, b.region) {
                 pairs.push([i, j]);
             }
         }
@@ -335,53 +338,6 @@ fn finish(branch: &mut Branch, starts: &mut [Start], tolerances: Tolerances, fau
     }
 }
 
-/// Where a branch passes through sheets of a third region, and how many places are undecided.
-fn triples(
-    regions: &Regions,
-    crossings: &[Crossing],
-    at: usize,
-    tolerances: Tolerances,
-    clip: Bounds,
-) -> (Vec<Triple>, usize) {
-    let crossing = &crossings[at];
-    let branch = &crossing.branch;
-    let segments: Vec<Segment> = (0..branch.pieces())
-        .map(|piece| {
-            let points = branch
-                .control(piece)
-                .map(|c| hermite::space(&c).extend(1.0));
-            Segment::new(points, [branch.lengths[piece], branch.lengths[piece + 1]])
-        })
-        .collect();
-    let bounds = segments
-        .iter()
-        .fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()));
-    let own = crossing.sheets.map(|sheet| regions.sheets[sheet].region);
-    let mut triples = Vec::new();
-    let mut undecided = 0;
-    for (sheet, other) in regions.sheets.iter().enumerate() {
-        let wanted = !own.contains(&other.region) && regions.may_pierce(crossing.sheets, sheet);
-        if !wanted || !other.bounds().meets(&bounds) {
-            continue;
-        }
-        let found = Piercing::new(&segments, other, tolerances, clip).run();
-        undecided += found.undecided;
-        for root in found.roots {
-            match refine(regions, crossing, sheet, &root, tolerances) {
-                Some((t, point, q)) => triples.push(Triple {
-                    crossing: at,
-                    sheet,
-                    t,
-                    point,
-                    q,
-                }),
-                None => undecided += 1,
-            }
-        }
-    }
-    (triples, undecided)
-}
-
 /// Gives branches nodes where they pass through third sheets. Between nodes a branch of sheets that are nearly parallel
 /// may be much farther from their curve than from both sheets; three that share a point would pass each other there.
 fn pass_through(
@@ -401,47 +357,4 @@ fn pass_through(
             branch.insert(triple.t, node);
         }
     }
-}
-
-/// The common point of three sheets near a root of a computed branch, and its place on the branch.
-fn refine(
-    regions: &Regions,
-    crossing: &Crossing,
-    third: usize,
-    root: &Root,
-    tolerances: Tolerances,
-) -> Option<(f64, DVec3, [f64; 4])> {
-    let sheets = [crossing.sheets[0], crossing.sheets[1], third].map(|at| &regions.sheets[at]);
-    let value = crossing.branch.value(root.t);
-    let mut q = [value[3], value[4], value[5], value[6], root.at.x, root.at.y];
-    for _ in 0..10 {
-        let jets = [0, 1, 2].map(|k| sheets[k].first_jet(q[2 * k], q[2 * k + 1]));
-        let mut matrix = [[0.0; 6]; 6];
-        let mut right = [0.0; 6];
-        for (block, other) in [1, 2].into_iter().enumerate() {
-            let gap = jets[0].0 - jets[other].0;
-            for i in 0..3 {
-                let row = 3 * block + i;
-                matrix[row][0] = jets[0].1[i];
-                matrix[row][1] = jets[0].2[i];
-                matrix[row][2 * other] = -jets[other].1[i];
-                matrix[row][2 * other + 1] = -jets[other].2[i];
-                right[row] = -gap[i];
-            }
-        }
-        let step = solve(matrix, right)?;
-        for i in 0..6 {
-            q[i] += step[i];
-        }
-        let residual: f64 = right.iter().map(|r| r.abs()).sum();
-        let moved = (jets[0].1 * step[0] + jets[0].2 * step[1]).length();
-        if residual < 2.0 * tolerances.residual && moved < tolerances.step {
-            let point = sheets[0].point(q[0], q[1]);
-            let near = point.distance(root.point) < 1e-3 * tolerances.scale;
-            let (t, distance) = crossing.branch.project(point);
-            let own = [q[0], q[1], q[2], q[3]];
-            return (near && distance < MATCH * tolerances.scale).then_some((t, point, own));
-        }
-    }
-    None
 }

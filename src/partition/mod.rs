@@ -36,6 +36,7 @@ mod pierce;
 mod polygon;
 mod quadrature;
 mod region;
+mod relations;
 mod samples;
 mod seeds;
 mod sheet;
@@ -43,6 +44,7 @@ mod solids;
 mod solve;
 mod topology;
 mod tracks;
+mod triples;
 
 #[cfg(test)]
 mod tests;
@@ -70,6 +72,9 @@ pub struct Options<'a> {
     /// Of which two regions both may matter near some place: whether there is one where the label depends on both.
     /// Regions that never meet so are not compared.
     pub meet: &'a (dyn Fn(usize, usize) -> bool + Sync),
+    /// Where a region (the first one) holds a place, or does not: whether it makes no difference there on which side of
+    /// another one the place is. What lies along such a surface there is not looked for.
+    pub hides: &'a (dyn Fn(usize, bool, usize) -> bool + Sync),
 }
 
 impl Default for Options<'_> {
@@ -78,6 +83,7 @@ impl Default for Options<'_> {
             tightness: 1.0,
             stop: &|| false,
             meet: &|_, _| true,
+            hides: &|_, _, _| false,
         }
     }
 }
@@ -158,7 +164,7 @@ pub fn partition(
     options: &Options<'_>,
 ) -> Result<Partition, PartitionError> {
     let mut clock = Clock::start();
-    let regions = region::Regions::new(regions, options.meet)?;
+    let regions = region::Regions::new(regions, options)?;
     let scale = regions.domain.diagonal();
     let tolerances = pair::Tolerances::new(scale, options.tightness);
     let clip = regions.domain.grown(MARGIN * scale);

@@ -147,15 +147,25 @@ impl<'a> Piercing<'a> {
         }
     }
 
-    pub(super) fn run(mut self) -> Self {
+    pub(super) fn run(self) -> Self {
+        self.within(&[[f64::NEG_INFINITY, f64::INFINITY]])
+    }
+
+    /// Only on some stretches of the curve.
+    pub(super) fn within(mut self, stretches: &[[f64; 2]]) -> Self {
         let near = *self.sheet.bounds();
+        let meets = |[from, to]: [f64; 2]| {
+            let meets = |stretch: &[f64; 2]| from <= stretch[1] && stretch[0] <= to;
+            stretches.iter().any(meets)
+        };
         for k in 0..self.segments.len() {
             let segment = &self.segments[k];
-            if segment.bounds.meets(&near) && segment.bounds.meets(&self.clip) {
+            if meets(segment.t) && segment.bounds.meets(&near) && segment.bounds.meets(&self.clip) {
                 self.segment = k;
                 self.nodes(self.sheet.root(), segment);
             }
         }
+        self.roots.retain(|root| meets([root.t; 2]));
         self.roots.sort_by(|a, b| a.t.total_cmp(&b.t));
         self
     }

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::PartitionError;
 use super::bounds::Bounds;
 use super::edge::{Edge, Landing, Side};
 use super::pierce::Segment;
+use super::relations::Relations;
 use super::sheet::{BORDERS, Border, Sheet};
+use super::{Options, PartitionError};
 use crate::nurbs::enclosure::Enclosure;
 use crate::nurbs::{Curve, KnotVector, Surface};
 
@@ -89,8 +90,10 @@ pub(super) struct Regions {
     pub(super) inside: Vec<Inside>,
     pub(super) bounds: Vec<Bounds>,
     pub(super) domain: Bounds,
-    /// By region and region: whether there may be a place where both matter.
-    meet: Vec<bool>,
+    /// What the rule says of them.
+    pub(super) relations: Relations,
+    /// By region: its first sheet; then the number of all sheets.
+    firsts: Vec<usize>,
 }
 
 /// How far apart sides may be that are the same, as a fraction of the region's size.
@@ -115,12 +118,7 @@ struct Shape {
 
 impl Regions {
     /// Region 0 is the domain.
-    ///
-    /// `meet` tells of which regions both may matter near some place.
-    pub(super) fn new(
-        regions: Vec<Region>,
-        meet: &dyn Fn(usize, usize) -> bool,
-    ) -> Result<Self, PartitionError> {
+    pub(super) fn new(regions: Vec<Region>, options: &Options<'_>) -> Result<Self, PartitionError> {
         let Some(Region::Block { low, high }) = regions.first() else {
             return Err(PartitionError::NoDomain);
         };
@@ -141,9 +139,8 @@ impl Regions {
             inside: Vec::new(),
             bounds: Vec::new(),
             domain,
-            meet: (0..count * count)
-                .map(|at| at / count == at % count || meet(at / count, at % count))
-                .collect(),
+            relations: Relations::new(count, options.meet, options.hides),
+            firsts: vec![0],
         };
         let mut own = Vec::new();
         for region in made {
@@ -156,6 +153,7 @@ impl Regions {
             all.inside.push(region.inside);
             all.bounds.push(bounds);
             own.push((first..all.sheets.len(), region.may_be_open));
+            all.firsts.push(all.sheets.len());
         }
         let mut open_borders = Vec::new();
         let joints: Vec<Joints> = own
@@ -188,9 +186,9 @@ impl Regions {
         Ok(all)
     }
 
-    /// Whether both regions may matter near some place.
-    pub(super) fn meet(&self, a: usize, b: usize) -> bool {
-        self.meet[a * self.inside.len() + b]
+    /// The sheets of a region.
+    pub(super) fn sheets_of(&self, region: usize) -> std::ops::Range<usize> {
+        self.firsts[region]..self.firsts[region + 1]
     }
 
     /// Whether one of two sheets lands on the other.
@@ -205,7 +203,7 @@ impl Regions {
         !ends.iter().any(|end| self.touch(*end, third))
             && ends
                 .iter()
-                .any(|end| self.meet(self.sheets[*end].region, region))
+                .any(|end| self.relations.meet(self.sheets[*end].region, region))
     }
 
     /// Makes an open border that lies on a level sheet of another region an edge.
@@ -217,7 +215,7 @@ impl Regions {
             return;
         }
         let under = self.sheets.iter().enumerate().find_map(|(at, other)| {
-            if other.region == region || !self.meet(region, other.region) {
+            if other.region == region || !self.relations.meet(region, other.region) {
                 return None;
             }
             let [point, normal, _] = other.plane?;

@@ -67,7 +67,7 @@ fn scene() -> Vec<Region> {
 
 /// The stages of a partition with damage between them: faults, and sizes of solids.
 fn staged(injected: &Injected) -> (Faults, Vec<f64>) {
-    let regions = Regions::new(scene(), &|_, _| true).unwrap();
+    let regions = Regions::new(scene(), &Options::default()).unwrap();
     let scale = regions.domain.diagonal();
     let tolerances = Tolerances::new(scale, 1.0);
     let clip = regions.domain.grown(MARGIN * scale);

@@ -328,7 +328,7 @@ impl Tracks {
                     passed += 1;
                 }
             }
-            let wanted = regions.meet(a, b) && regions.domain.holds(point);
+            let wanted = regions.relations.meet(a, b) && regions.domain.holds(point);
             faults.triples += usize::from(wanted && passed != 1);
         }
     }
@@ -379,7 +379,7 @@ impl Tracks {
                 for (k, pair) in all.iter().enumerate() {
                     let count = pairs.iter().filter(|one| *one == pair).count();
                     let [a, b] = pair.map(|sheet| regions.sheets[sheet].region);
-                    if count == 1 || !regions.meet(a, b) {
+                    if count == 1 || !regions.relations.meet(a, b) {
                         continue;
                     }
                     // A curve that was seen to miss the point is asked for the nearest place on it.

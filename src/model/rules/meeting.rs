@@ -14,10 +14,13 @@
 //!   that g holds and must leave to v, so they meet only if b takes from g.
 //!
 //! In doubt, sides meet.
+//!
+//! A volume *hides* another one where its body holds a place, or where it does not, if the other's side makes no
+//! difference there, whatever the rest: what a needs is not there, or something younger has taken all.
 
 use serde::{Deserialize, Serialize};
 
-use super::{BACKGROUND, Chosen, Rules, Verdict};
+use super::{BACKGROUND, Chosen, Resolved, Rules, Verdict};
 
 /// What the rules say of the holders that a volume finds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -54,6 +57,32 @@ impl Rules {
                 _ => return true,
             }
         }
+    }
+
+    /// Whether a volume's side makes no difference to who holds a place, wherever another volume's body holds the place,
+    /// or does not hold it. `true` is certain.
+    pub fn hides(&self, other: usize, holds: bool, volume: usize) -> bool {
+        if volume == BACKGROUND || other == volume {
+            return volume == BACKGROUND;
+        }
+        if !holds {
+            return self.needs(volume, other);
+        }
+        let past = &self.volumes[volume].past;
+        let takes_from_gate = |gate: usize| {
+            (gate + 1..volume).contains(&other) && self.verdict(other, gate) == Verdict::Takes
+        };
+        other > volume && self.covers(other, volume)
+            || past.directly && past.gate.is_some_and(takes_from_gate)
+    }
+
+    /// Whether a volume takes no place that another one has not held.
+    fn needs(&self, volume: usize, other: usize) -> bool {
+        let Resolved { parent, from, .. } = &self.volumes[volume];
+        [*parent, *from]
+            .into_iter()
+            .flatten()
+            .any(|gate| gate == other || gate > other && self.needs(gate, other))
     }
 
     /// Whether v takes a place that b found, whether b took it or not.

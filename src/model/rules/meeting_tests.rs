@@ -82,6 +82,34 @@ proptest! {
     }
 }
 
+/// Whether the side of `volume` makes no difference, for all settings of other sides with that of `other`.
+fn hidden_by_trying(rules: &Rules, other: usize, holds: bool, volume: usize) -> bool {
+    (0..1_u32 << rules.len())
+        .filter(|sides| sides >> volume & 1 == 0 && (sides >> other & 1 == 1) == holds)
+        .all(|sides| {
+            let owner = |sides: u32| rules.owner(|volume| sides >> volume & 1 == 1);
+            owner(sides) == owner(sides | 1 << volume)
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #[test]
+    fn what_is_said_to_be_hidden_makes_no_difference(volumes in any_rules()) {
+        let rules = Rules::new(&volumes);
+        for volume in 1..rules.len() {
+            for other in (1..rules.len()).filter(|other| *other != volume) {
+                for holds in [false, true] {
+                    if rules.hides(other, holds, volume) {
+                        let is_right = hidden_by_trying(&rules, other, holds, volume);
+                        prop_assert!(is_right, "{volume} by {other}, {holds}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Two stacked units, each of three clinothems of which the older two have two belts; the second is `upper`.
 fn stack(upper: VolumeRules) -> Rules {
     let mut volumes = vec![volume("background", None, None), volume("h", None, None)];
@@ -108,6 +136,30 @@ fn for_stacked_sets_the_answer_is_exact() {
                     meet_by_trying(&rules, a, b),
                     "{a} and {b}, upper unit from {from:?}"
                 );
+            }
+        }
+    }
+}
+
+#[test]
+fn in_stacked_sets_and_among_channels_all_that_single_bodies_hide_is_known() {
+    let mut belt = vec![volume("background", None, None)];
+    belt.extend((1..5).map(|_| volume("channel", None, None)));
+    let eroding = stack(volume("upper", None, None));
+    for rules in [
+        eroding,
+        stack(volume("upper", None, Some(1))),
+        Rules::new(&belt),
+    ] {
+        for a in 1..rules.len() {
+            for b in (1..rules.len()).filter(|b| *b != a) {
+                for holds in [false, true] {
+                    assert_eq!(
+                        rules.hides(b, holds, a),
+                        hidden_by_trying(&rules, b, holds, a),
+                        "{a} by {b}, {holds}"
+                    );
+                }
             }
         }
     }

@@ -1,0 +1,229 @@
+//! Where computed branches pass through third sheets.
+//!
+//! Most of a branch can lie where one of its two regions makes no difference: a younger body has taken the place, or
+//! what the region divides is not there. Nothing is looked for on such stretches; they bound nothing.
+
+use glam::DVec3;
+
+use super::bounds::Bounds;
+use super::crossings::{Crossing, MATCH, Triple};
+use super::hermite;
+use super::pair::Tolerances;
+use super::pierce::{Piercing, Root, Segment};
+use super::region::Regions;
+use super::solve::solve;
+
+/// Where a stretch is asked on which side of a region it is. It lies on one; but the side of open sheets may change
+/// unseen where it does not matter, so more than one place is asked.
+const PROBES: [f64; 3] = [0.4837, 0.0213, 0.9742];
+
+/// The third sheets of one branch.
+pub(super) struct Thirds<'a> {
+    regions: &'a Regions,
+    crossing: &'a Crossing,
+    /// Its position among all.
+    at: usize,
+    tolerances: Tolerances,
+    clip: Bounds,
+    own: [usize; 2],
+    segments: Vec<Segment>,
+    bounds: Bounds,
+    /// Stretches where both regions may matter, in order.
+    live: Vec<[f64; 2]>,
+    pub(super) found: Vec<Triple>,
+    /// Places that could not be decided.
+    pub(super) undecided: usize,
+}
+
+impl<'a> Thirds<'a> {
+    pub(super) fn of(
+        regions: &'a Regions,
+        crossings: &'a [Crossing],
+        at: usize,
+        tolerances: Tolerances,
+        clip: Bounds,
+    ) -> Self {
+        let crossing = &crossings[at];
+        let branch = &crossing.branch;
+        let segments: Vec<Segment> = (0..branch.pieces())
+            .map(|piece| {
+                let points = branch
+                    .control(piece)
+                    .map(|c| hermite::space(&c).extend(1.0));
+                Segment::new(points, [branch.lengths[piece], branch.lengths[piece + 1]])
+            })
+            .collect();
+        let bounds = segments
+            .iter()
+            .fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()));
+        Self {
+            regions,
+            crossing,
+            at,
+            tolerances,
+            clip,
+            own: crossing.sheets.map(|sheet| regions.sheets[sheet].region),
+            segments,
+            bounds,
+            live: vec![[0.0, branch.length()]],
+            found: Vec::new(),
+            undecided: 0,
+        }
+    }
+
+    /// Looks for all of them: what may hide most of the branch comes first.
+    pub(super) fn find(mut self) -> Self {
+        let mut order: Vec<(u8, usize)> = Vec::new();
+        for region in 0..self.regions.inside.len() {
+            let is_near = self.sheets(region).next().is_some();
+            if self.own.contains(&region) {
+            } else if self.may_hide(region) && self.is_hidden(region, &self.live[0], 1) {
+                order.push((0, region));
+            } else if is_near {
+                order.push((if self.may_hide(region) { 1 } else { 2 }, region));
+            }
+        }
+        order.sort_unstable();
+        for (_, region) in order {
+            let cuts = self.pierce(region);
+            if self.may_hide(region) {
+                self.cut(region, &cuts);
+            }
+            if self.live.is_empty() {
+                break;
+            }
+        }
+        self
+    }
+
+    /// A region's sheets that the branch may pass through.
+    fn sheets(&self, region: usize) -> impl Iterator<Item = usize> + use<'a> {
+        let (regions, own, bounds) = (self.regions, self.crossing.sheets, self.bounds);
+        regions.sheets_of(region).filter(move |sheet| {
+            regions.may_pierce(own, *sheet) && regions.sheets[*sheet].bounds().meets(&bounds)
+        })
+    }
+
+    /// Whether the branch may be hidden on one side of a region. Not if a sheet of it touches the branch's own: where it
+    /// is passed on that contact is not looked for here.
+    fn may_hide(&self, region: usize) -> bool {
+        let regions = self.regions;
+        let hides = |inside: bool| regions.relations.hides(region, inside, &self.own);
+        let touches = |sheet: usize| {
+            let own = self.crossing.sheets;
+            own.iter().any(|own| regions.touch(*own, sheet))
+        };
+        (hides(false) || hides(true)) && !regions.sheets_of(region).any(touches)
+    }
+
+    /// Whether a stretch is hidden by a region wherever it is asked.
+    fn is_hidden(&self, region: usize, stretch: &[f64; 2], probes: usize) -> bool {
+        let [from, to] = *stretch;
+        PROBES[..probes].iter().all(|fraction| {
+            let point = self.crossing.branch.in_space(from + fraction * (to - from))[0];
+            let inside = self.regions.inside[region].holds(point);
+            self.regions.relations.hides(region, inside, &self.own)
+        })
+    }
+
+    /// Looks for the points on a region's sheets; their places along the branch.
+    fn pierce(&mut self, region: usize) -> Vec<f64> {
+        let mut cuts = Vec::new();
+        for sheet in self.sheets(region) {
+            let other = &self.regions.sheets[sheet];
+            let found =
+                Piercing::new(&self.segments, other, self.tolerances, self.clip).within(&self.live);
+            self.undecided += found.undecided;
+            for root in found.roots {
+                match self.refine(sheet, &root) {
+                    Some(triple) => {
+                        cuts.push(triple.t);
+                        self.found.push(triple);
+                    }
+                    None => self.undecided += 1,
+                }
+            }
+        }
+        cuts
+    }
+
+    /// Cuts what is left of the branch where it passes through a region's sheets, and drops what the region hides.
+    fn cut(&mut self, region: usize, cuts: &[f64]) {
+        let mut stops = cuts.to_vec();
+        stops.sort_unstable_by(f64::total_cmp);
+        let mut live: Vec<[f64; 2]> = Vec::new();
+        for [from, to] in std::mem::take(&mut self.live) {
+            let inner = stops.iter().copied().filter(|t| from < *t && *t < to);
+            let ends: Vec<f64> = std::iter::once(from)
+                .chain(inner)
+                .chain(std::iter::once(to))
+                .collect();
+            for pair in ends.windows(2) {
+                let stretch = [pair[0], pair[1]];
+                if self.is_hidden(region, &stretch, PROBES.len()) {
+                    continue;
+                }
+                match live.last_mut() {
+                    Some(last) if last[1] == stretch[0] => last[1] = stretch[1],
+                    _ => live.push(stretch),
+                }
+            }
+        }
+        self.live = live;
+    }
+
+    /// The common point of three sheets near a root of a computed branch, and its place on the branch.
+    fn refine(&self, third: usize, root: &Root) -> Option<Triple> {
+        let Self {
+            regions,
+            crossing,
+            tolerances,
+            ..
+        } = self;
+        let sheets = [crossing.sheets[0], crossing.sheets[1], third].map(|at| &regions.sheets[at]);
+        let value = crossing.branch.value(root.t);
+        let mut q = [value[3], value[4], value[5], value[6], root.at.x, root.at.y];
+        for _ in 0..10 {
+            let jets = [0, 1, 2].map(|k| sheets[k].first_jet(q[2 * k], q[2 * k + 1]));
+            let (matrix, right) = equations(&jets);
+            let step = solve(matrix, right)?;
+            for i in 0..6 {
+                q[i] += step[i];
+            }
+            let residual: f64 = right.iter().map(|r| r.abs()).sum();
+            let moved = (jets[0].1 * step[0] + jets[0].2 * step[1]).length();
+            if residual < 2.0 * tolerances.residual && moved < tolerances.step {
+                let point = sheets[0].point(q[0], q[1]);
+                let near = point.distance(root.point) < 1e-3 * tolerances.scale;
+                let (t, distance) = crossing.branch.project(point);
+                let triple = Triple {
+                    crossing: self.at,
+                    sheet: third,
+                    t,
+                    point,
+                    q: [q[0], q[1], q[2], q[3]],
+                };
+                return (near && distance < MATCH * tolerances.scale).then_some(triple);
+            }
+        }
+        None
+    }
+}
+
+/// Newton's system for the common point of three sheets: the first one's gaps to both others.
+fn equations(jets: &[(DVec3, DVec3, DVec3); 3]) -> ([[f64; 6]; 6], [f64; 6]) {
+    let mut matrix = [[0.0; 6]; 6];
+    let mut right = [0.0; 6];
+    for (block, other) in [1, 2].into_iter().enumerate() {
+        let gap = jets[0].0 - jets[other].0;
+        for i in 0..3 {
+            let row = 3 * block + i;
+            matrix[row][0] = jets[0].1[i];
+            matrix[row][1] = jets[0].2[i];
+            matrix[row][2 * other] = -jets[other].1[i];
+            matrix[row][2 * other + 1] = -jets[other].2[i];
+            right[row] = -gap[i];
+        }
+    }
+    (matrix, right)
+}
