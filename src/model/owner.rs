@@ -65,7 +65,7 @@ impl Owners {
     pub fn at(&self, point: DVec3) -> Option<usize> {
         self.in_domain(point).then(|| {
             self.rules
-                .owner_asking(|body| self.interiors[body - 1].contains(point))
+                .owner(|body| self.interiors[body - 1].contains(point))
         })
     }
 
@@ -100,7 +100,7 @@ impl Owners {
             .history(|body| self.interiors[body - 1].contains(point));
         let owner = self
             .rules
-            .owner_asking(|body| self.interiors[body - 1].contains(point));
+            .owner(|body| self.interiors[body - 1].contains(point));
         if self.near(point, tolerance).next().is_none() {
             return Some(Location {
                 owner,

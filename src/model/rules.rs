@@ -51,6 +51,8 @@ pub struct VolumeRules {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rules {
     volumes: Vec<Resolved>,
+    /// By volume: the younger ones that take from it a place that it holds.
+    takers: Vec<Vec<Run>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,11 +65,26 @@ struct Resolved {
     past: meeting::Past,
 }
 
-/// A selector as sorted runs of volume indices: instances of a feature are neighbours, so few runs do.
+/// The first and the last of some volumes that follow each other.
+type Run = (usize, usize);
+
+/// Sorted volumes as runs: instances of a feature are neighbours, so few do.
+fn runs(volumes: impl Iterator<Item = usize>) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for volume in volumes {
+        match runs.last_mut() {
+            Some(last) if last.1 + 1 == volume => last.1 = volume,
+            _ => runs.push((volume, volume)),
+        }
+    }
+    runs
+}
+
+/// A selector as volumes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum Chosen {
     Everything,
-    Runs(Vec<(usize, usize)>),
+    Runs(Vec<Run>),
 }
 
 /// What a body did to the holder of a place inside it.
@@ -107,19 +124,8 @@ impl Chosen {
             return Self::Everything;
         };
         let admits = |volume: &VolumeRules| picks.iter().any(|pick| volume.is_picked_by(pick));
-        let mut runs: Vec<(usize, usize)> = Vec::new();
-        for index in volumes
-            .iter()
-            .enumerate()
-            .filter(|(_, v)| admits(v))
-            .map(|(i, _)| i)
-        {
-            match runs.last_mut() {
-                Some(last) if last.1 + 1 == index => last.1 = index,
-                _ => runs.push((index, index)),
-            }
-        }
-        Self::Runs(runs)
+        let chosen = volumes.iter().enumerate().filter(|(_, v)| admits(v));
+        Self::Runs(runs(chosen.map(|(index, _)| index)))
     }
 
     fn admits(&self, volume: usize) -> bool {
@@ -157,7 +163,13 @@ impl Rules {
         };
         let mut rules = Self {
             volumes: volumes.iter().map(resolve).collect(),
+            takers: Vec::new(),
         };
+        let takers = |holder: usize| {
+            let younger = holder + 1..rules.len();
+            runs(younger.filter(|body| rules.verdict(*body, holder) == Verdict::Takes))
+        };
+        rules.takers = (0..rules.len()).map(takers).collect();
         rules.look_back();
         rules
     }
@@ -193,32 +205,23 @@ impl Rules {
         }
     }
 
-    /// The volume that holds a place in the end; `inside(volume)` tells whether the place is inside
-    /// that body's shell.
+    /// The volume that holds a place in the end; `inside(volume)` tells whether the place is inside that body's shell.
+    /// It is asked only of bodies that would take the place.
     pub fn owner(&self, mut inside: impl FnMut(usize) -> bool) -> usize {
-        let bodies = 1..self.volumes.len();
-        bodies
-            .filter(|&body| inside(body))
-            .fold(BACKGROUND, |holder, body| {
-                match self.verdict(body, holder) {
-                    Verdict::Takes => body,
-                    _ => holder,
-                }
-            })
+        let mut holder = BACKGROUND;
+        let mut next = |holder: usize| {
+            let takers = self.takers[holder].iter();
+            takers
+                .flat_map(|(first, last)| *first..=*last)
+                .find(|body| inside(*body))
+        };
+        while let Some(taker) = next(holder) {
+            holder = taker;
+        }
+        holder
     }
 
-    /// The same where `inside` costs more than the rules: it is asked only of bodies that would take the place.
-    pub fn owner_asking(&self, mut inside: impl FnMut(usize) -> bool) -> usize {
-        (1..self.volumes.len()).fold(BACKGROUND, |holder, body| {
-            if self.verdict(body, holder) == Verdict::Takes && inside(body) {
-                body
-            } else {
-                holder
-            }
-        })
-    }
-
-    /// The same, with every body that had a say and what it did.
+    /// Every body that has a say about a place, and what it does to the holder so far.
     pub fn history(&self, mut inside: impl FnMut(usize) -> bool) -> Vec<(usize, Verdict)> {
         let mut holder = BACKGROUND;
         let mut steps = Vec::new();

@@ -2,6 +2,7 @@
 
 use super::KnotVector;
 use super::interpolate::{self, InterpolateError};
+use smallvec::SmallVec;
 
 /// Where a span between two knots is compared with what it shall follow, as fractions. Uneven, so that a wave as long
 /// as the span cannot hide between them.
@@ -12,6 +13,43 @@ const PROBES: [f64; 5] = [0.11, 0.3, 0.52, 0.71, 0.9];
 pub struct Function {
     knots: KnotVector,
     coefficients: Vec<f64>,
+    /// The same, span by span, for quick values.
+    pieces: Vec<Piece>,
+}
+
+/// A polynomial over a span between two distinct knots.
+#[derive(Clone, Debug, PartialEq)]
+struct Piece {
+    start: f64,
+    /// One over the span's length.
+    rate: f64,
+    /// Coefficients of the powers of the part of the span that lies behind.
+    powers: SmallVec<[f64; 4]>,
+}
+
+impl Piece {
+    fn new(knots: &KnotVector, coefficients: &[f64], start: f64, end: f64) -> Self {
+        let rows = knots.basis_derivatives(start, knots.degree());
+        let own = &coefficients[knots.span(start) - knots.degree()..];
+        let mut factor = 1.0;
+        let mut powers = SmallVec::new();
+        for (k, row) in rows.iter().enumerate() {
+            let derivative: f64 = own.iter().zip(row).map(|(c, n)| c * n).sum();
+            powers.push(derivative * factor);
+            // To the next power over the next factorial.
+            factor *= (end - start) / (k + 1) as f64;
+        }
+        Self {
+            start,
+            rate: 1.0 / (end - start),
+            powers,
+        }
+    }
+
+    fn value(&self, t: f64) -> f64 {
+        let s = (t - self.start) * self.rate;
+        self.powers.iter().rev().fold(0.0, |sum, c| sum * s + c)
+    }
 }
 
 impl Function {
@@ -24,9 +62,15 @@ impl Function {
         let mut rows = [values];
         interpolate::at_greville(knots, &mut rows)?;
         let [coefficients] = rows;
+        let pieces = knots
+            .distinct()
+            .windows(2)
+            .map(|ends| Piece::new(knots, &coefficients, ends[0].0, ends[1].0))
+            .collect();
         Ok(Self {
             knots: knots.clone(),
             coefficients,
+            pieces,
         })
     }
 
@@ -40,11 +84,12 @@ impl Function {
         &self.coefficients
     }
 
-    /// The value at t.
+    /// The value at t, or at the nearer end of the knots.
     pub fn value(&self, t: f64) -> f64 {
-        let basis = self.knots.basis(t);
-        let own = &self.coefficients[basis.first()..];
-        own.iter().zip(basis.values()).map(|(c, n)| c * n).sum()
+        let (start, end) = self.knots.domain();
+        let t = t.clamp(start, end);
+        let after = self.pieces[1..].partition_point(|piece| piece.start <= t);
+        self.pieces[after].value(t)
     }
 
     /// The largest difference from `f` at five places of every span.

@@ -67,8 +67,8 @@ pub(super) struct Settings<'a> {
 /// How far a branch may be from what it should pass through, as a fraction of the domain's size.
 pub(super) const MATCH: f64 = 1e-8;
 
-/// Curves are followed this far beyond the domain, as a fraction of its diagonal: one that leaves the domain and
-/// comes back is one branch.
+/// Curves are followed this far beyond the domain, as a fraction of its size each way: one that leaves the domain and
+/// comes back soon is one branch.
 const FAR: f64 = 0.25;
 
 /// A root as the start of a branch on one pair of sheets.
@@ -216,7 +216,11 @@ fn trace(
         sheets: sheets.map(|at| &regions.sheets[at]),
         tolerances,
     };
-    let far = regions.domain.grown(FAR * tolerances.scale);
+    let beyond = FAR * (regions.domain.high - regions.domain.low);
+    let far = Bounds {
+        low: clip.low - beyond,
+        high: clip.high + beyond,
+    };
     let mut starts = starts(regions, sheets, roots);
     let stop = |start: &Start| Stop {
         point: start.point,
@@ -255,8 +259,14 @@ fn trace(
         .iter()
         .position(|branch| !matches!(branch.ends[0], End::AtRoot(_)));
     let mut branches = search.branches;
-    for branch in branches.iter_mut().skip(first_new.unwrap_or(usize::MAX)) {
-        finish(branch, &mut starts, tolerances, &mut faults);
+    let new = branches.split_off(first_new.unwrap_or(branches.len()));
+    for mut branch in new {
+        // Only one branch starts at a root: one that ends at a root of another is the same, seen from a place where the
+        // sheets are too nearly parallel to tell.
+        if !ends_at_used_root(&branch, &starts, tolerances) {
+            finish(&mut branch, &mut starts, tolerances, &mut faults);
+            branches.push(branch);
+        }
     }
     faults.unused_roots += starts.iter().filter(|start| !start.used).count();
     let crossings = branches
@@ -310,6 +320,22 @@ fn inwards(pair: &Pair<'_>, start: &Start) -> Option<Node> {
     })
 }
 
+/// Whether a branch ends on a border where only roots are that other branches have.
+fn ends_at_used_root(branch: &Branch, starts: &[Start], tolerances: Tolerances) -> bool {
+    (0..2).any(|which| {
+        let End::AtBorder(side, border) = branch.ends[which] else {
+            return false;
+        };
+        let point = branch.end(which).point();
+        let mut here = starts.iter().filter(|start| {
+            start.side == side
+                && start.border == border
+                && start.point.distance(point) < MATCH * tolerances.scale
+        });
+        here.next().is_some_and(|first| first.used) && here.all(|start| start.used)
+    })
+}
+
 /// Gives ends on borders their roots.
 fn finish(branch: &mut Branch, starts: &mut [Start], tolerances: Tolerances, faults: &mut Faults) {
     for which in 0..2 {
@@ -317,12 +343,7 @@ fn finish(branch: &mut Branch, starts: &mut [Start], tolerances: Tolerances, fau
             faults.tangents += usize::from(branch.ends[which] == End::Tangent);
             continue;
         };
-        let node = if which == 0 {
-            &branch.nodes[0]
-        } else {
-            &branch.nodes[branch.nodes.len() - 1]
-        };
-        let point = node.point();
+        let point = branch.end(which).point();
         let nearest = starts
             .iter_mut()
             .filter(|start| !start.used && start.side == side && start.border == border)

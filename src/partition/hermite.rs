@@ -153,6 +153,11 @@ impl Branch {
         self.ends[0] == End::Closed
     }
 
+    /// The node at its start (0) or end (1).
+    pub(super) fn end(&self, which: usize) -> &Node {
+        &self.nodes[which * (self.nodes.len() - 1)]
+    }
+
     /// Number of pieces.
     pub(super) fn pieces(&self) -> usize {
         self.nodes.len() - 1

@@ -34,7 +34,7 @@ impl Tolerances {
 }
 
 /// Sheets nearer to parallel than this have no curve that can be followed.
-const PARALLEL: f64 = 1e-5;
+pub(super) const PARALLEL: f64 = 1e-5;
 
 /// What closes the system of three equations `A(u, v) = B(s, t)` in four unknowns.
 #[derive(Clone, Copy, Debug)]

@@ -7,7 +7,7 @@
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
-use super::pair::{Closing, Pair, Step, lies};
+use super::pair::{Closing, PARALLEL, Pair, Step, lies};
 use super::patch::Patch;
 use super::sheet::NodeKind;
 
@@ -216,7 +216,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// Whether a known branch passes through a point.
     fn is_traced(&self, node: &Node) -> bool {
-        let near = (6.0 * self.pair.tolerances.curve / node.sine.max(1e-4))
+        let near = (6.0 * self.pair.tolerances.curve / node.sine.max(PARALLEL))
             .max(1e2 * self.pair.tolerances.curve);
         self.branches
             .iter()

@@ -265,13 +265,10 @@ impl Tracks {
                     region: None,
                 }));
             } else {
-                for (end, t, node) in [
-                    (branch.ends[0], 0.0, 0),
-                    (branch.ends[1], length, branch.nodes.len() - 1),
-                ] {
-                    let vertex = match end {
+                for (which, t) in [(0, 0.0), (1, length)] {
+                    let vertex = match branch.ends[which] {
                         End::AtRoot(root) => roots[root],
-                        _ => self.vertex(branch.nodes[node].point()),
+                        _ => self.vertex(branch.end(which).point()),
                     };
                     cuts.push(Cut {
                         t,

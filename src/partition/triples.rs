@@ -27,9 +27,10 @@ pub(super) struct Thirds<'a> {
     clip: Bounds,
     own: [usize; 2],
     segments: Vec<Segment>,
-    bounds: Bounds,
     /// Stretches where both regions may matter, in order.
     live: Vec<[f64; 2]>,
+    /// A box that holds them.
+    bounds: Bounds,
     pub(super) found: Vec<Triple>,
     /// Places that could not be decided.
     pub(super) undecided: usize,
@@ -53,9 +54,7 @@ impl<'a> Thirds<'a> {
                 Segment::new(points, [branch.lengths[piece], branch.lengths[piece + 1]])
             })
             .collect();
-        let bounds = segments
-            .iter()
-            .fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()));
+        let live = vec![[0.0, branch.length()]];
         Self {
             regions,
             crossing,
@@ -63,30 +62,37 @@ impl<'a> Thirds<'a> {
             tolerances,
             clip,
             own: crossing.sheets.map(|sheet| regions.sheets[sheet].region),
+            bounds: bounds(&segments, &live),
             segments,
-            bounds,
-            live: vec![[0.0, branch.length()]],
+            live,
             found: Vec::new(),
             undecided: 0,
         }
     }
 
-    /// Looks for all of them: what may hide most of the branch comes first.
+    /// Looks for all of them: first the sheets of what hides the middle of the branch, then of what may hide some of it,
+    /// then the others.
     pub(super) fn find(mut self) -> Self {
         let mut order: Vec<(u8, usize)> = Vec::new();
         for region in 0..self.regions.inside.len() {
             let is_near = self.sheets(region).next().is_some();
             if self.own.contains(&region) {
-            } else if self.may_hide(region) && self.is_hidden(region, &self.live[0], 1) {
+                continue;
+            }
+            if self.may_hide(region) && self.is_hidden(region, &self.live[0], 1) {
                 order.push((0, region));
             } else if is_near {
                 order.push((if self.may_hide(region) { 1 } else { 2 }, region));
             }
         }
         order.sort_unstable();
-        for (_, region) in order {
+        for (class, region) in order {
+            // Less is left of the branch now.
+            if class > 0 && self.sheets(region).next().is_none() {
+                continue;
+            }
             let cuts = self.pierce(region);
-            if self.may_hide(region) {
+            if class < 2 {
                 self.cut(region, &cuts);
             }
             if self.live.is_empty() {
@@ -170,6 +176,7 @@ impl<'a> Thirds<'a> {
             }
         }
         self.live = live;
+        self.bounds = bounds(&self.segments, &self.live);
     }
 
     /// The common point of three sheets near a root of a computed branch, and its place on the branch.
@@ -208,6 +215,16 @@ impl<'a> Thirds<'a> {
         }
         None
     }
+}
+
+/// A box that holds some stretches of a curve.
+fn bounds(segments: &[Segment], stretches: &[[f64; 2]]) -> Bounds {
+    let meets = |segment: &&Segment| {
+        let [from, to] = segment.t;
+        stretches.iter().any(|own| from <= own[1] && own[0] <= to)
+    };
+    let own = segments.iter().filter(meets);
+    own.fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()))
 }
 
 /// Newton's system for the common point of three sheets: the first one's gaps to both others.

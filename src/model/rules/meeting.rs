@@ -20,13 +20,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BACKGROUND, Chosen, Resolved, Rules, Verdict};
+use super::{BACKGROUND, Chosen, Rules, Verdict};
 
 /// What the rules say of the holders that a volume finds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Past {
     /// The older volume that held every place which this one takes.
     gate: Option<usize>,
+    /// The older volumes that have all held every place which this one takes, in order.
+    needs: Vec<usize>,
     /// Whether it takes from the gate alone, not from what descends from it.
     directly: bool,
     /// The volumes from this one on make no difference to it: it takes from all that can hold a place then.
@@ -78,11 +80,11 @@ impl Rules {
 
     /// Whether a volume takes no place that another one has not held.
     fn needs(&self, volume: usize, other: usize) -> bool {
-        let Resolved { parent, from, .. } = &self.volumes[volume];
-        [*parent, *from]
-            .into_iter()
-            .flatten()
-            .any(|gate| gate == other || gate > other && self.needs(gate, other))
+        self.volumes[volume]
+            .past
+            .needs
+            .binary_search(&other)
+            .is_ok()
     }
 
     /// Whether v takes a place that b found, whether b took it or not.
@@ -107,8 +109,16 @@ impl Rules {
                 && !volume.preserve
                 && volume.removes == Chosen::Everything
                 && protections.iter().all(|admitted| admitted.admits(v));
+            let mut needs: Vec<usize> = Vec::new();
+            for gate in [volume.parent, volume.from].into_iter().flatten() {
+                needs.push(gate);
+                needs.extend(&self.volumes[gate].past.needs);
+            }
+            needs.sort_unstable();
+            needs.dedup();
             let past = Past {
                 gate,
+                needs,
                 directly: gate.is_some_and(|gate| volume.from == gate.into() && !is_parent[gate]),
                 covers_since: takes_all.then(|| self.run_before(v)),
             };

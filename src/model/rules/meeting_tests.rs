@@ -93,6 +93,21 @@ fn hidden_by_trying(rules: &Rules, other: usize, holds: bool, volume: usize) -> 
 }
 
 proptest! {
+    #[test]
+    fn the_owner_is_the_last_that_takes_when_all_bodies_are_asked_in_order(
+        volumes in any_rules(),
+        sides in any::<u32>(),
+    ) {
+        let rules = Rules::new(&volumes);
+        let inside = |volume: usize| sides >> volume & 1 == 1;
+        let takes = |(_, verdict): &(usize, Verdict)| *verdict == Verdict::Takes;
+        let history = rules.history(inside);
+        let last = history.iter().rev().find(|step| takes(step));
+        prop_assert_eq!(rules.owner(inside), last.map_or(BACKGROUND, |step| step.0));
+    }
+}
+
+proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
     #[test]
     fn what_is_said_to_be_hidden_makes_no_difference(volumes in any_rules()) {
