@@ -88,8 +88,16 @@ impl Function {
     pub fn value(&self, t: f64) -> f64 {
         let (start, end) = self.knots.domain();
         let t = t.clamp(start, end);
-        let after = self.pieces[1..].partition_point(|piece| piece.start <= t);
-        self.pieces[after].value(t)
+        // Spans are usually equally long: a guess that is rarely corrected.
+        let last = self.pieces.len() - 1;
+        let mut at = (((t - start) / (end - start) * self.pieces.len() as f64) as usize).min(last);
+        while at > 0 && t < self.pieces[at].start {
+            at -= 1;
+        }
+        while at < last && self.pieces[at + 1].start <= t {
+            at += 1;
+        }
+        self.pieces[at].value(t)
     }
 
     /// The largest difference from `f` at five places of every span.

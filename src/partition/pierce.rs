@@ -35,10 +35,15 @@ pub(super) struct Root {
 
 /// Pieces that bend less than this sine are straight enough for one attempt.
 const STRAIGHT: f64 = 0.35;
+/// While segments and patches are halved, their sizes are kept within this factor.
+const RATIO: f64 = 4.0;
 /// Halving ends at this fraction of the domain's size.
 const LEAST: f64 = 1e-7;
 /// Most halvings of one curve with one sheet.
 const MOST: usize = 100_000;
+
+/// Segments by number.
+type Few = SmallVec<[usize; 16]>;
 
 impl Segment {
     pub(super) fn new(points: impl IntoIterator<Item = DVec4>, t: [f64; 2]) -> Self {
@@ -50,6 +55,16 @@ impl Segment {
             bounds,
             slack: 0.0,
         }
+    }
+
+    /// Whether neither boxes nor the direction in which a patch is thin keep them apart.
+    fn may_pass(&self, patch: &Patch) -> bool {
+        if !self.bounds.meets(&patch.bounds) {
+            return false;
+        }
+        let (thin, slab) = patch.slab();
+        let range = self.range_along(thin);
+        slab[0] <= range[1] && range[0] <= slab[1]
     }
 
     /// The same, with a box that is larger on all sides: what it only touches counts as met.
@@ -158,28 +173,51 @@ impl<'a> Piercing<'a> {
             let meets = |stretch: &[f64; 2]| from <= stretch[1] && stretch[0] <= to;
             stretches.iter().any(meets)
         };
-        for k in 0..self.segments.len() {
-            let segment = &self.segments[k];
-            if meets(segment.t) && segment.bounds.meets(&near) && segment.bounds.meets(&self.clip) {
-                self.segment = k;
-                self.nodes(self.sheet.root(), segment);
-            }
-        }
+        let near: Vec<usize> = (0..self.segments.len())
+            .filter(|at| {
+                let segment = &self.segments[*at];
+                meets(segment.t) && segment.bounds.meets(&near) && segment.bounds.meets(&self.clip)
+            })
+            .collect();
+        self.nodes(self.sheet.root(), &near);
         self.roots.retain(|root| meets([root.t; 2]));
         self.roots.sort_by(|a, b| a.t.total_cmp(&b.t));
         self
     }
 
-    fn nodes(&mut self, at: usize, segment: &Segment) {
+    fn nodes(&mut self, at: usize, near: &[usize]) {
         let node = self.sheet.node(at);
-        if !node.bounds.meets(&segment.bounds) || !node.bounds.meets(&self.clip) {
+        if !node.bounds.meets(&self.clip) {
             return;
         }
+        let segments = self.segments;
+        let meets = |at: &usize| node.bounds.meets(&segments[*at].bounds);
+        let near: Few = near.iter().copied().filter(meets).collect();
         match node.kind {
-            NodeKind::Leaf(patch) => self.pieces(segment, &self.sheet.facet(patch)),
+            _ if near.is_empty() => {}
+            NodeKind::Leaf(patch) => self.patches(self.sheet.patch(patch), &near),
             NodeKind::Pair(a, b) => {
-                self.nodes(a, segment);
-                self.nodes(b, segment);
+                self.nodes(a, &near);
+                self.nodes(b, &near);
+            }
+        }
+    }
+
+    /// Halves a patch once for all segments that are much smaller.
+    fn patches(&mut self, patch: &Patch, near: &[usize]) {
+        let segments = self.segments;
+        let may_pass = |at: &usize| segments[*at].may_pass(patch);
+        let near: Few = near.iter().copied().filter(may_pass).collect();
+        let size = |at: &usize| segments[*at].bounds.extent();
+        let longest = near.iter().map(size).fold(0.0, f64::max);
+        if near.len() > 1 && patch.bounds.extent() > RATIO * longest {
+            let wanted = |bounds: &Bounds| near.iter().any(|at| segments[*at].bounds.meets(bounds));
+            patch.halve(patch.longer(), wanted, |half| self.patches(&half, &near));
+        } else if !near.is_empty() {
+            let facet = Facet::whole(patch, patch.normals());
+            for at in near {
+                self.segment = at;
+                self.pieces(&segments[at], &facet);
             }
         }
     }
@@ -191,14 +229,6 @@ impl<'a> Piercing<'a> {
             return;
         }
         let patch = &facet.patch;
-        if !segment.bounds.meets(&patch.bounds) || !segment.bounds.meets(&self.clip) {
-            return;
-        }
-        let (thin, slab) = patch.slab();
-        let range = segment.range_along(thin);
-        if slab[0] > range[1] || range[0] > slab[1] {
-            return;
-        }
         let tangents = segment.tangents();
         let (normals, lean) = (facet.normals, facet.lean());
         let bend = tangents.map_or(f64::INFINITY, |t| t.1);
@@ -220,7 +250,7 @@ impl<'a> Piercing<'a> {
             return;
         }
         // Whatever is longer, or bends more when both are small enough to compare.
-        let unlike = size_s > 4.0 * size_p || size_p > 4.0 * size_s;
+        let unlike = size_s > RATIO * size_p || size_p > RATIO * size_s;
         let halve_segment = if unlike || (bend < STRAIGHT && lean < STRAIGHT) {
             size_s > size_p
         } else {
@@ -228,12 +258,14 @@ impl<'a> Piercing<'a> {
         };
         if halve_segment && size_s >= least || size_p < least {
             for half in segment.halves() {
-                self.pieces(&half, facet);
+                if half.may_pass(patch) && half.bounds.meets(&self.clip) {
+                    self.pieces(&half, facet);
+                }
             }
         } else {
             facet.halve(
                 |bounds| bounds.meets(&segment.bounds),
-                |_| true,
+                |half| segment.may_pass(half),
                 |half| self.pieces(segment, half),
             );
         }

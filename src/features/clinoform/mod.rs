@@ -186,6 +186,8 @@ pub struct Clinoform {
     surface: Surface,
     top: Function,
     toe: Function,
+    /// Landward of the first d (m) there is no sheet at any strike, basinward of the second neither.
+    dips: [f64; 2],
     deviation: f64,
 }
 
@@ -218,8 +220,16 @@ impl Clinoform {
                 net.push(frame.place(d, q).extend(heights[net.len()]));
             }
         }
+        // A spline function lies between its coefficients.
+        let (first, last) = across.domain();
+        let ends = top.coefficients().iter().zip(toe.coefficients());
+        let dips = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (a, b)| {
+            let [start, end] = [first, last].map(|u| between(*a, *b, u));
+            [low.min(start), high.max(end)]
+        });
         Ok(Self {
             frame: frame.clone(),
+            dips,
             surface: Surface::new(across, along, net)?,
             top,
             toe,
@@ -256,6 +266,9 @@ impl Clinoform {
     /// Whether a point lies above the sheet, or basinward of all of it.
     pub fn holds(&self, point: DVec3) -> bool {
         let DVec2 { x: d, y: q } = self.frame.local(point.xy());
+        if d < self.dips[0] || d > self.dips[1] {
+            return d > self.dips[1];
+        }
         let (u, v) = self.parameters(d, q);
         let (first, last) = self.surface.knots_u().domain();
         if u <= first {
