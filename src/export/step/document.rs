@@ -2,8 +2,8 @@
 
 use super::Protocol;
 use super::geometry::Geometry;
-use super::part21::{Exchange, Quoted};
-use super::products::{Items, Products};
+use super::part21::{Draft, Exchange, Quoted};
+use super::products::Products;
 use super::topology::Topology;
 use crate::assembly::kernel::{Boundary, BoundaryShape};
 use crate::export::ExportError;
@@ -54,17 +54,10 @@ pub enum Content {
 pub fn assembly(document: &Document, boundary: &Boundary) -> Result<Exchange, ExportError> {
     check(&document.root, boundary)?;
     let mut file = begin(document);
-    let geometry = Geometry::write(&mut file, boundary);
     let mut products = Products::new(&mut file, document.protocol);
-    products.tree(&document.root, &|to, shapes| {
-        let mut items = Items::default();
-        for shape in shapes {
-            items.add(to, boundary, &geometry, &boundary.shapes[*shape]);
-        }
-        items
-    });
+    products.tree(&document.root, &mut Geometry::new(boundary));
     products.finish();
-    Ok(file)
+    Ok(file.finish())
 }
 
 /// The shared flavour: one product in which common faces are there once, and a closed shell by name for each solid.
@@ -102,9 +95,9 @@ pub fn shared(
         }
     }
     let mut file = begin(document);
-    let geometry = Geometry::write(&mut file, boundary);
+    let mut geometry = Geometry::new(boundary);
     let faces = shells.iter().flat_map(|shell| shell.iter());
-    let mut body = Topology::new(boundary, &geometry, faces.map(|(face, _)| *face));
+    let mut body = Topology::new(&mut geometry, faces.map(|(face, _)| *face));
     let mut models = Vec::with_capacity(names.len());
     for (name, shell) in names.iter().zip(shells) {
         let shell = body.closed_shell(&mut file, shell);
@@ -120,11 +113,11 @@ pub fn shared(
         models,
     );
     products.finish();
-    Ok(file)
+    Ok(file.finish())
 }
 
 /// No clock and no user: the same model gives the same bytes.
-fn begin(document: &Document) -> Exchange {
+fn begin<'a>(document: &Document) -> Draft<'a> {
     let schema = match document.protocol {
         Protocol::Ap214 => "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }",
         Protocol::Ap242 => {
@@ -132,7 +125,7 @@ fn begin(document: &Document) -> Exchange {
         }
     };
     let system = Quoted(&document.system);
-    Exchange::new(format_args!(
+    Draft::new(format_args!(
         "FILE_DESCRIPTION(({}),'2;1');\n\
          FILE_NAME({},'1970-01-01T00:00:00',(''),(''),{system},{system},'');\n\
          FILE_SCHEMA(('{schema}'));\n",

@@ -1,134 +1,125 @@
-//! Points, curves and surfaces, each written once: both copies of a face that two products have refer to the same ones.
+//! Points, curves and surfaces: what is referred to, once. Both copies of a face that two products have refer to the same.
 //!
 //! A face has a surface entity of its own, even where several lie on one surface: readers tell by it which curve on a
-//! surface belongs to which face. The control points below it are common.
+//! surface belongs to which face, and in the shared flavour which face is which. The control points below it are common.
 //!
 //! On planes the curves on the surface are those in space, projected: the kernel keeps none there.
 
-use std::ops::Range;
+use std::collections::HashMap;
 
-use super::part21::{Block, Exchange, Id};
+use super::part21::{Draft, Id};
 use super::shapes::{Piece, Plane, write_surface};
 use crate::assembly::kernel::{Boundary, Surface};
 
-/// The entities of all geometry.
-pub(super) struct Geometry {
-    /// A point by vertex.
-    pub(super) vertices: Vec<Id>,
-    /// Curves in space.
-    pub(super) curves: Vec<Id>,
-    /// Faces.
-    pub(super) faces: Vec<FaceGeometry>,
+/// A use of an edge by a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Side {
+    pub(super) face: usize,
+    /// Which of its loops, and which use in that.
+    pub(super) at: (usize, usize),
 }
 
-/// The entities of a face's geometry.
-pub(super) struct FaceGeometry {
-    pub(super) surface: Id,
-    pub(super) is_plane: bool,
-    /// By loop and use; `None` if the edge is a point.
-    pub(super) pcurves: Vec<Vec<Option<Id>>>,
+/// The geometry that has been written, by index.
+pub(super) struct Geometry<'a> {
+    pub(super) boundary: &'a Boundary,
+    points: HashMap<usize, Id>,
+    curves: HashMap<usize, Id>,
+    pcurves: HashMap<usize, Id>,
+    /// First entities of what surfaces are written with.
+    below: HashMap<usize, Id>,
+    /// By face.
+    surfaces: HashMap<usize, Id>,
+    /// The space of a face's parameters.
+    spaces: HashMap<usize, Id>,
+    sides: HashMap<Side, Id>,
 }
 
-impl Geometry {
-    pub(super) fn write(to: &mut Exchange, boundary: &Boundary) -> Self {
-        let mut blocks: Vec<Piece<'_>> = Vec::new();
-        let vertices = place(&mut blocks, boundary.vertices.iter().map(Piece::Point));
-        let curves = place(&mut blocks, boundary.curves.iter().map(Piece::Curve));
-        let pcurves = place(&mut blocks, boundary.pcurves.iter().map(Piece::Pcurve));
-        let surfaces = place(&mut blocks, boundary.surfaces.iter().map(Piece::Below));
-        let projected = place(&mut blocks, projections(boundary));
-        let firsts = to.blocks(&blocks);
-        // A curve comes after its points, a placement after its axes.
-        let last = |at: usize| firsts[at].after(blocks[at].entities() - 1);
-
-        let mut projected = projected.map(last);
-        let by_pcurve: Vec<Id> = pcurves.map(last).collect();
-        let faces = boundary
-            .faces
-            .iter()
-            .map(|face| {
-                let surface = &boundary.surfaces[face.surface];
-                let below = surfaces.start + face.surface;
-                let is_plane = matches!(surface, Surface::Plane { .. });
-                let surface = match surface {
-                    Surface::Plane { .. } => to.add(format_args!("PLANE('',{})", last(below))),
-                    Surface::BSpline { .. } => {
-                        to.write(|text| write_surface(surface, firsts[below], text))
-                    }
-                };
-                let mut curve_of = |pcurve: Option<usize>, edge: usize| {
-                    // Of a plane's edges, those with a curve have a projection.
-                    match pcurve {
-                        Some(pcurve) => Some(by_pcurve[pcurve]),
-                        None if is_plane && boundary.edges[edge].curve.is_some() => {
-                            projected.next()
-                        }
-                        None => None,
-                    }
-                };
-                let curves: Vec<Vec<Option<Id>>> = face
-                    .loops
-                    .iter()
-                    .map(|uses| {
-                        let uses = uses.iter();
-                        uses.map(|of| curve_of(of.pcurve, of.edge)).collect()
-                    })
-                    .collect();
-                FaceGeometry {
-                    surface,
-                    is_plane,
-                    pcurves: write_pcurves(to, surface, &curves),
-                }
-            })
-            .collect();
+impl<'a> Geometry<'a> {
+    pub(super) fn new(boundary: &'a Boundary) -> Self {
         Self {
-            vertices: vertices.map(|at| firsts[at]).collect(),
-            curves: curves.map(last).collect(),
-            faces,
+            boundary,
+            points: HashMap::new(),
+            curves: HashMap::new(),
+            pcurves: HashMap::new(),
+            below: HashMap::new(),
+            surfaces: HashMap::new(),
+            spaces: HashMap::new(),
+            sides: HashMap::new(),
         }
+    }
+
+    /// Whether a face lies on a plane.
+    pub(super) fn is_plane(&self, face: usize) -> bool {
+        let surface = self.boundary.faces[face].surface;
+        matches!(self.boundary.surfaces[surface], Surface::Plane { .. })
+    }
+
+    /// The point of a vertex.
+    pub(super) fn point(&mut self, to: &mut Draft<'a>, vertex: usize) -> Id {
+        let boundary = self.boundary;
+        let write = || to.defer(Piece::Point(&boundary.vertices[vertex]));
+        *self.points.entry(vertex).or_insert_with(write)
+    }
+
+    /// A curve in space.
+    pub(super) fn curve(&mut self, to: &mut Draft<'a>, curve: usize) -> Id {
+        let boundary = self.boundary;
+        let write = || last(to, Piece::Curve(&boundary.curves[curve]));
+        *self.curves.entry(curve).or_insert_with(write)
+    }
+
+    /// The surface of a face.
+    pub(super) fn surface(&mut self, to: &mut Draft<'a>, face: usize) -> Id {
+        if let Some(written) = self.surfaces.get(&face) {
+            return *written;
+        }
+        let index = self.boundary.faces[face].surface;
+        let surface = &self.boundary.surfaces[index];
+        let piece = Piece::Below(surface);
+        let entities = piece.entities();
+        let first = *self.below.entry(index).or_insert_with(|| to.defer(piece));
+        let entity = match surface {
+            Surface::Plane { .. } => {
+                to.add(format_args!("PLANE('',{})", first.after(entities - 1)))
+            }
+            Surface::BSpline { .. } => to.write(|text| write_surface(surface, first, text)),
+        };
+        self.surfaces.insert(face, entity);
+        entity
+    }
+
+    /// Where an edge with this curve in space runs on the surface of a face.
+    pub(super) fn pcurve(&mut self, to: &mut Draft<'a>, side: Side, curve: usize) -> Option<Id> {
+        if let Some(written) = self.sides.get(&side) {
+            return Some(*written);
+        }
+        let boundary = self.boundary;
+        let face = &boundary.faces[side.face];
+        let on = match Plane::of(&boundary.surfaces[face.surface]) {
+            Some(plane) => last(to, Piece::Projected(plane, &boundary.curves[curve])),
+            None => {
+                let pcurve = face.loops[side.at.0][side.at.1].pcurve?;
+                let write = || last(to, Piece::Pcurve(&boundary.pcurves[pcurve]));
+                *self.pcurves.entry(pcurve).or_insert_with(write)
+            }
+        };
+        let surface = self.surface(to, side.face);
+        let space = *self.spaces.entry(side.face).or_insert_with(|| {
+            to.add(format_args!(
+                "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()REPRESENTATION_CONTEXT('2D SPACE',''))"
+            ))
+        });
+        let alone = to.add(format_args!(
+            "DEFINITIONAL_REPRESENTATION('',({on}),{space})"
+        ));
+        let pcurve = to.add(format_args!("PCURVE('',{surface},{alone})"));
+        self.sides.insert(side, pcurve);
+        Some(pcurve)
     }
 }
 
-/// Adds blocks; returns where they are.
-fn place<'a>(
-    blocks: &mut Vec<Piece<'a>>,
-    more: impl IntoIterator<Item = Piece<'a>>,
-) -> Range<usize> {
-    let start = blocks.len();
-    blocks.extend(more);
-    start..blocks.len()
-}
-
-/// Of each face on a plane, loop by loop, its edges.
-fn projections(boundary: &Boundary) -> impl Iterator<Item = Piece<'_>> {
-    let flat = boundary.faces.iter().filter_map(|face| {
-        let plane = Plane::of(&boundary.surfaces[face.surface])?;
-        Some((plane, face.loops.iter().flatten()))
-    });
-    flat.flat_map(move |(plane, uses)| {
-        let curves = uses.filter_map(move |of| boundary.edges[of.edge].curve);
-        curves.map(move |curve| Piece::Projected(plane, &boundary.curves[curve]))
-    })
-}
-
-/// The curves on a face's surface as its edges refer to them. They share the space of its parameters.
-fn write_pcurves(
-    to: &mut Exchange,
-    surface: Id,
-    curves: &[Vec<Option<Id>>],
-) -> Vec<Vec<Option<Id>>> {
-    let space = to.add(format_args!(
-        "(GEOMETRIC_REPRESENTATION_CONTEXT(2)PARAMETRIC_REPRESENTATION_CONTEXT()REPRESENTATION_CONTEXT('2D SPACE',''))"
-    ));
-    let mut pcurve = |curve: &Option<Id>| {
-        curve.map(|curve| {
-            let alone = to.add(format_args!(
-                "DEFINITIONAL_REPRESENTATION('',({curve}),{space})"
-            ));
-            to.add(format_args!("PCURVE('',{surface},{alone})"))
-        })
-    };
-    let each = curves.iter();
-    each.map(|of_loop| of_loop.iter().map(&mut pcurve).collect())
-        .collect()
+/// Adds geometry; returns the last of its entities, to which others refer.
+fn last<'a>(to: &mut Draft<'a>, piece: Piece<'a>) -> Id {
+    let entities = piece.entities();
+    to.defer(piece).after(entities - 1)
 }

@@ -9,11 +9,12 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use super::shapes::Piece;
 use crate::export::file;
 
 /// References on one line of a list.
 const PER_LINE: usize = 10;
-/// Blocks that one task writes.
+/// Parts that one task writes.
 const PER_TASK: usize = 64;
 
 /// The number of an entity.
@@ -189,29 +190,21 @@ impl Text {
     }
 }
 
-/// Several entities that follow each other.
-pub(super) trait Block: Sync {
-    /// How many they are.
-    fn entities(&self) -> usize;
-    /// Writes them, numbered from `first`.
-    fn write(&self, first: Id, to: &mut Text);
-}
-
-/// A file in the making.
-pub struct Exchange {
-    pieces: Vec<Text>,
+/// A file in the making. Large geometry only takes its numbers; it is written at the end, in parallel, where it belongs.
+pub(super) struct Draft<'a> {
+    parts: Vec<Part<'a>>,
+    /// What follows them.
+    text: Text,
+    /// Number of the last entity.
     last: usize,
 }
 
-impl fmt::Debug for Exchange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Exchange")
-            .field("entities", &self.last)
-            .finish_non_exhaustive()
-    }
+enum Part<'a> {
+    Text(Text),
+    Later(Id, Piece<'a>),
 }
 
-impl Exchange {
+impl<'a> Draft<'a> {
     /// Begins a file with what its header says.
     pub(super) fn new(header: fmt::Arguments<'_>) -> Self {
         let mut text = Text::default();
@@ -219,7 +212,8 @@ impl Exchange {
             "ISO-10303-21;\nHEADER;\n{header}ENDSEC;\nDATA;\n"
         ));
         Self {
-            pieces: vec![text],
+            parts: Vec::new(),
+            text,
             last: 0,
         }
     }
@@ -233,48 +227,59 @@ impl Exchange {
     pub(super) fn write(&mut self, body: impl FnOnce(&mut Text)) -> Id {
         self.last += 1;
         let id = Id(self.last);
-        if self.pieces.is_empty() {
-            self.pieces.push(Text::default());
-        }
-        if let Some(text) = self.pieces.last_mut() {
-            text.begin(id);
-            body(text);
-            text.end();
-        }
+        self.text.begin(id);
+        body(&mut self.text);
+        self.text.end();
         id
     }
 
-    /// Adds blocks of entities, written in parallel; returns the first of each.
-    pub(super) fn blocks<B: Block>(&mut self, blocks: &[B]) -> Vec<Id> {
-        let mut firsts = Vec::with_capacity(blocks.len());
-        for block in blocks {
-            firsts.push(Id(self.last + 1));
-            self.last += block.entities();
-        }
-        let texts: Vec<Text> = blocks
-            .par_chunks(PER_TASK)
-            .zip(firsts.par_chunks(PER_TASK))
-            .map(|(blocks, firsts)| {
-                let mut text = Text::default();
-                for (block, first) in blocks.iter().zip(firsts) {
-                    block.write(*first, &mut text);
-                }
-                text
-            })
-            .collect();
-        self.pieces.extend(texts);
-        self.pieces.push(Text::default());
-        firsts
+    /// Adds geometry; returns the first of its entities.
+    pub(super) fn defer(&mut self, piece: Piece<'a>) -> Id {
+        let first = Id(self.last + 1);
+        self.last += piece.entities();
+        self.parts.push(Part::Text(std::mem::take(&mut self.text)));
+        self.parts.push(Part::Later(first, piece));
+        first
     }
 
-    /// Ends the file and writes it: a file that exists is whole, and an existing one is replaced.
+    /// Ends the file.
+    pub(super) fn finish(mut self) -> Exchange {
+        self.text.push("ENDSEC;\nEND-ISO-10303-21;\n");
+        self.parts.push(Part::Text(self.text));
+        let pieces = self.parts.par_chunks(PER_TASK).map(|parts| {
+            let mut whole = Text::default();
+            for part in parts {
+                match part {
+                    Part::Text(text) => whole.push(&text.0),
+                    Part::Later(first, piece) => piece.write(*first, &mut whole),
+                }
+            }
+            whole.0
+        });
+        Exchange {
+            pieces: pieces.collect(),
+        }
+    }
+}
+
+/// A file that is finished, but not yet on a disk.
+pub struct Exchange {
+    pieces: Vec<String>,
+}
+
+impl Exchange {
+    /// Writes the file: one that exists is whole, and an earlier one of that name is replaced.
     ///
     /// # Errors
     /// If it cannot be written; then nothing is left.
-    pub fn save(mut self, path: &Path) -> io::Result<()> {
-        let mut end = Text::default();
-        end.push("ENDSEC;\nEND-ISO-10303-21;\n");
-        self.pieces.push(end);
-        file::write(path, self.pieces.iter().map(|piece| piece.0.as_bytes()))
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        file::write(path, self.pieces.iter().map(String::as_bytes))
+    }
+}
+
+impl fmt::Debug for Exchange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bytes: usize = self.pieces.iter().map(String::len).sum();
+        f.debug_struct("Exchange").field("bytes", &bytes).finish()
     }
 }

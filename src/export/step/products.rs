@@ -9,9 +9,9 @@ use std::collections::HashMap;
 use super::Protocol;
 use super::document::{Content, Node};
 use super::geometry::Geometry;
-use super::part21::{Exchange, Id, List, Quoted};
+use super::part21::{Draft, Id, List, Quoted};
 use super::topology::Topology;
-use crate::assembly::kernel::{Boundary, BoundaryShape};
+use crate::assembly::kernel::BoundaryShape;
 
 /// The shapes of a product.
 #[derive(Default)]
@@ -26,24 +26,23 @@ pub(super) struct Items {
 
 impl Items {
     /// Writes a shape with a topology of its own.
-    pub(super) fn add(
+    pub(super) fn add<'a>(
         &mut self,
-        to: &mut Exchange,
-        boundary: &Boundary,
-        geometry: &Geometry,
+        to: &mut Draft<'a>,
+        geometry: &mut Geometry<'a>,
         shape: &BoundaryShape,
     ) {
         match shape {
             BoundaryShape::Solid(shells) => {
                 let faces = shells.iter().flatten().map(|(face, _)| *face);
-                let solid = Topology::new(boundary, geometry, faces).solid(to, shells);
+                let solid = Topology::new(geometry, faces).solid(to, shells);
                 self.roots.extend(solid);
                 self.styled.extend(solid);
                 self.has_solid = true;
             }
             BoundaryShape::Faces(shell) => {
                 let faces = shell.iter().map(|(face, _)| *face);
-                let faces = Topology::new(boundary, geometry, faces).faces(to, shell);
+                let faces = Topology::new(geometry, faces).faces(to, shell);
                 let shell = to.add(format_args!("OPEN_SHELL('',{})", List(&faces)));
                 self.roots
                     .push(to.add(format_args!("SHELL_BASED_SURFACE_MODEL('',({shell}))")));
@@ -52,9 +51,6 @@ impl Items {
         }
     }
 }
-
-/// What writes the shapes of a product.
-pub(super) type Shapes<'a> = dyn Fn(&mut Exchange, &[usize]) -> Items + 'a;
 
 /// A product that has been written.
 struct Product {
@@ -75,7 +71,7 @@ struct Common {
 }
 
 impl Common {
-    fn write(to: &mut Exchange, protocol: Protocol) -> Self {
+    fn write(to: &mut Draft<'_>, protocol: Protocol) -> Self {
         let (application, status, year) = match protocol {
             Protocol::Ap214 => (
                 "core data for automotive mechanical design processes",
@@ -126,13 +122,13 @@ impl Common {
     }
 }
 
-fn placement(to: &mut Exchange, [origin, axis, x]: &[Id; 3]) -> Id {
+fn placement(to: &mut Draft<'_>, [origin, axis, x]: &[Id; 3]) -> Id {
     to.add(format_args!("AXIS2_PLACEMENT_3D('',{origin},{axis},{x})"))
 }
 
 /// Writes the products of a file.
-pub(super) struct Products<'a> {
-    to: &'a mut Exchange,
+pub(super) struct Products<'a, 'd> {
+    to: &'d mut Draft<'a>,
     common: Common,
     /// How often a name was given.
     names: HashMap<String, usize>,
@@ -143,8 +139,8 @@ pub(super) struct Products<'a> {
     colored: Vec<([u8; 3], Vec<Id>, Id)>,
 }
 
-impl<'a> Products<'a> {
-    pub(super) fn new(to: &'a mut Exchange, protocol: Protocol) -> Self {
+impl<'a, 'd> Products<'a, 'd> {
+    pub(super) fn new(to: &'d mut Draft<'a>, protocol: Protocol) -> Self {
         let common = Common::write(to, protocol);
         Self {
             to,
@@ -157,8 +153,8 @@ impl<'a> Products<'a> {
     }
 
     /// A product with all below it.
-    pub(super) fn tree(&mut self, node: &Node, shapes: &Shapes<'_>) {
-        self.node(node, shapes);
+    pub(super) fn tree(&mut self, node: &Node, geometry: &mut Geometry<'a>) {
+        self.node(node, geometry);
     }
 
     /// A product without a tree.
@@ -166,11 +162,15 @@ impl<'a> Products<'a> {
         self.product(name, "", kind, items);
     }
 
-    fn node(&mut self, node: &Node, shapes: &Shapes<'_>) -> Product {
+    fn node(&mut self, node: &Node, geometry: &mut Geometry<'a>) -> Product {
         let description = node.description.as_deref().unwrap_or_default();
         match &node.content {
             Content::Shapes(indices) => {
-                let items = shapes(self.to, indices);
+                let mut items = Items::default();
+                for index in indices {
+                    let shape = &geometry.boundary.shapes[*index];
+                    items.add(self.to, geometry, shape);
+                }
                 let kind = if items.has_solid {
                     "ADVANCED_BREP_SHAPE_REPRESENTATION"
                 } else {
@@ -202,7 +202,7 @@ impl<'a> Products<'a> {
                 for (child, place) in nodes.iter().zip(places) {
                     self.occurrences += 1;
                     let number = self.occurrences;
-                    let placed = self.node(child, shapes);
+                    let placed = self.node(child, geometry);
                     self.place(number, child, &placed, &parent, place);
                 }
                 parent
@@ -320,7 +320,7 @@ impl<'a> Products<'a> {
 }
 
 /// How everything of a colour looks: surfaces and curves.
-fn style(to: &mut Exchange, color: [u8; 3]) -> Id {
+fn style(to: &mut Draft<'_>, color: [u8; 3]) -> Id {
     let rgb = to.write(|text| {
         text.push("COLOUR_RGB(''");
         for part in color {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::part21::{Block, Id, Logical, Text};
+use super::part21::{Id, Logical, Text};
 use crate::assembly::kernel::{Path, Surface};
 
 /// Geometry that needs nothing else.
@@ -16,8 +16,9 @@ pub(super) enum Piece<'a> {
     Below(&'a Surface),
 }
 
-impl Block for Piece<'_> {
-    fn entities(&self) -> usize {
+impl Piece<'_> {
+    /// How many entities it consists of.
+    pub(super) fn entities(&self) -> usize {
         match self {
             Self::Point(_) => 1,
             Self::Curve(path) | Self::Projected(_, path) => of_path(path),
@@ -27,8 +28,8 @@ impl Block for Piece<'_> {
         }
     }
 
-    /// A curve comes after its points, a placement after its axes.
-    fn write(&self, first: Id, to: &mut Text) {
+    /// Writes them, numbered from `first`: a curve comes after its points, a placement after its axes.
+    pub(super) fn write(&self, first: Id, to: &mut Text) {
         match self {
             Self::Point(point) => write_point(point, first, to),
             Self::Curve(path) => write_path(path, first, to),

@@ -6,17 +6,16 @@
 
 use std::collections::HashMap;
 
-use super::geometry::Geometry;
-use super::part21::{Exchange, Id, List, Logical};
-use crate::assembly::kernel::{Boundary, BoundaryUse, Shell};
+use super::geometry::{Geometry, Side};
+use super::part21::{Draft, Id, List, Logical};
+use crate::assembly::kernel::{BoundaryUse, Shell};
 
 /// Curves on surfaces that an edge may name.
 const SIDES: usize = 2;
 
 /// A body, and what of it has been written, by index.
-pub(super) struct Topology<'a> {
-    boundary: &'a Boundary,
-    geometry: &'a Geometry,
+pub(super) struct Topology<'a, 'g> {
+    geometry: &'g mut Geometry<'a>,
     vertices: HashMap<usize, Id>,
     edges: HashMap<usize, Id>,
     loops: HashMap<usize, Vec<Id>>,
@@ -24,43 +23,27 @@ pub(super) struct Topology<'a> {
     sides: HashMap<usize, Vec<Side>>,
 }
 
-/// An edge on the surface of a face.
-#[derive(Clone, Copy)]
-struct Side {
-    face: usize,
-    is_plane: bool,
-    pcurve: Id,
-}
-
-impl<'a> Topology<'a> {
+impl<'a, 'g> Topology<'a, 'g> {
     /// A body that consists of these faces; one may be there twice, for its two sides.
-    pub(super) fn new(
-        boundary: &'a Boundary,
-        geometry: &'a Geometry,
-        faces: impl Iterator<Item = usize>,
-    ) -> Self {
+    pub(super) fn new(geometry: &'g mut Geometry<'a>, faces: impl Iterator<Item = usize>) -> Self {
         let mut faces: Vec<usize> = faces.collect();
         faces.sort_unstable();
         faces.dedup();
         let mut sides: HashMap<usize, Vec<Side>> = HashMap::new();
         for face in faces {
-            let of = &geometry.faces[face];
-            let uses = boundary.faces[face].loops.iter().flatten();
-            for (of_loop, pcurve) in uses.zip(of.pcurves.iter().flatten()) {
-                let Some(pcurve) = *pcurve else { continue };
-                let sides = sides.entry(of_loop.edge).or_default();
-                // On a plane both directions have the same curve.
-                if !(of.is_plane && sides.iter().any(|side| side.face == face)) {
-                    sides.push(Side {
-                        face,
-                        is_plane: of.is_plane,
-                        pcurve,
-                    });
+            let is_plane = geometry.is_plane(face);
+            for (l, uses) in geometry.boundary.faces[face].loops.iter().enumerate() {
+                for (u, of) in uses.iter().enumerate() {
+                    let sides = sides.entry(of.edge).or_default();
+                    // On a plane both directions have the same curve.
+                    if !(is_plane && sides.iter().any(|side| side.face == face)) {
+                        let at = (l, u);
+                        sides.push(Side { face, at });
+                    }
                 }
             }
         }
         Self {
-            boundary,
             geometry,
             vertices: HashMap::new(),
             edges: HashMap::new(),
@@ -70,7 +53,7 @@ impl<'a> Topology<'a> {
     }
 
     /// A solid: its outer shell, then voids.
-    pub(super) fn solid(&mut self, to: &mut Exchange, shells: &[Shell]) -> Option<Id> {
+    pub(super) fn solid(&mut self, to: &mut Draft<'a>, shells: &[Shell]) -> Option<Id> {
         let (outer, voids) = shells.split_first()?;
         let outer = self.closed_shell(to, outer);
         let voids: Vec<Id> = voids
@@ -92,51 +75,52 @@ impl<'a> Topology<'a> {
         })
     }
 
-    pub(super) fn closed_shell(&mut self, to: &mut Exchange, shell: &Shell) -> Id {
+    pub(super) fn closed_shell(&mut self, to: &mut Draft<'a>, shell: &Shell) -> Id {
         let faces = self.faces(to, shell);
         to.add(format_args!("CLOSED_SHELL('',{})", List(&faces)))
     }
 
     /// The faces of a shell.
-    pub(super) fn faces(&mut self, to: &mut Exchange, shell: &Shell) -> Vec<Id> {
+    pub(super) fn faces(&mut self, to: &mut Draft<'a>, shell: &Shell) -> Vec<Id> {
         let mut face = |(face, reversed): &(usize, bool)| self.face(to, *face, *reversed);
         shell.iter().map(&mut face).collect()
     }
 
     /// A face. Its loops run about the surface's normal, so a face against it has them the other way round.
-    fn face(&mut self, to: &mut Exchange, face: usize, reversed: bool) -> Id {
+    fn face(&mut self, to: &mut Draft<'a>, face: usize, reversed: bool) -> Id {
         let along = Logical(!reversed);
         let bounds: Vec<Id> = self
             .loops(to, face)
             .iter()
             .map(|id| to.add(format_args!("FACE_BOUND('',{id},{along})")))
             .collect();
-        let surface = self.geometry.faces[face].surface;
+        let surface = self.geometry.surface(to, face);
         to.add(format_args!(
             "ADVANCED_FACE('',{},{surface},{along})",
             List(&bounds)
         ))
     }
 
-    fn loops(&mut self, to: &mut Exchange, face: usize) -> Vec<Id> {
+    fn loops(&mut self, to: &mut Draft<'a>, face: usize) -> Vec<Id> {
         if let Some(loops) = self.loops.get(&face) {
             return loops.clone();
         }
-        let boundary = self.boundary;
+        let boundary = self.geometry.boundary;
         let loops = boundary.faces[face].loops.iter();
         let loops: Vec<Id> = loops.map(|uses| self.write_loop(to, uses)).collect();
         self.loops.insert(face, loops.clone());
         loops
     }
 
-    fn write_loop(&mut self, to: &mut Exchange, uses: &[BoundaryUse]) -> Id {
+    fn write_loop(&mut self, to: &mut Draft<'a>, uses: &[BoundaryUse]) -> Id {
+        let boundary = self.geometry.boundary;
         let edges: Vec<(BoundaryUse, usize)> = uses
             .iter()
-            .filter_map(|of| Some((*of, self.boundary.edges[of.edge].curve?)))
+            .filter_map(|of| Some((*of, boundary.edges[of.edge].curve?)))
             .collect();
         if let Some(at) = turning_point(&edges) {
             let of = edges.get(at).map_or(uses[0], |(of, _)| *of);
-            let edge = self.boundary.edges[of.edge];
+            let edge = boundary.edges[of.edge];
             let vertex = self.vertex(to, if of.reversed { edge.end } else { edge.start });
             return to.add(format_args!("VERTEX_LOOP('',{vertex})"));
         }
@@ -151,13 +135,13 @@ impl<'a> Topology<'a> {
         to.add(format_args!("EDGE_LOOP('',{})", List(&edges)))
     }
 
-    fn edge(&mut self, to: &mut Exchange, edge: usize, curve: usize) -> Id {
+    fn edge(&mut self, to: &mut Draft<'a>, edge: usize, curve: usize) -> Id {
         if let Some(written) = self.edges.get(&edge) {
             return *written;
         }
-        let of = self.boundary.edges[edge];
+        let of = self.geometry.boundary.edges[edge];
         let (start, end) = (self.vertex(to, of.start), self.vertex(to, of.end));
-        let curve = self.curve(to, edge, self.geometry.curves[curve]);
+        let curve = self.curve(to, edge, curve);
         let id = to.add(format_args!("EDGE_CURVE('',{start},{end},{curve},.T.)"));
         self.edges.insert(edge, id);
         id
@@ -165,7 +149,7 @@ impl<'a> Topology<'a> {
 
     /// A curve in space with its curves on surfaces. Of more than two faces around an edge, readers can do without the
     /// curves on planes best.
-    fn curve(&self, to: &mut Exchange, edge: usize, curve: Id) -> Id {
+    fn curve(&mut self, to: &mut Draft<'a>, edge: usize, curve: usize) -> Id {
         let mut sides = self.sides.get(&edge).cloned().unwrap_or_default();
         let seam = sides.iter().enumerate().find_map(|(at, side)| {
             let other = sides[..at].iter().find(|other| other.face == side.face)?;
@@ -179,22 +163,28 @@ impl<'a> Topology<'a> {
             None => "SURFACE",
         };
         if sides.len() > SIDES {
-            sides.sort_by_key(|side| side.is_plane);
+            sides.sort_by_key(|side| self.geometry.is_plane(side.face));
             sides.truncate(SIDES);
         }
-        let pcurves: Vec<Id> = sides.iter().map(|side| side.pcurve).collect();
+        let pcurves: Vec<Id> = sides
+            .iter()
+            .filter_map(|side| self.geometry.pcurve(to, *side, curve))
+            .collect();
+        let curve = self.geometry.curve(to, curve);
         to.add(format_args!(
             "{kind}_CURVE('',{curve},{},.PCURVE_S1.)",
             List(&pcurves)
         ))
     }
 
-    fn vertex(&mut self, to: &mut Exchange, vertex: usize) -> Id {
-        let point = self.geometry.vertices[vertex];
-        *self
-            .vertices
-            .entry(vertex)
-            .or_insert_with(|| to.add(format_args!("VERTEX_POINT('',{point})")))
+    fn vertex(&mut self, to: &mut Draft<'a>, vertex: usize) -> Id {
+        if let Some(written) = self.vertices.get(&vertex) {
+            return *written;
+        }
+        let point = self.geometry.point(to, vertex);
+        let id = to.add(format_args!("VERTEX_POINT('',{point})"));
+        self.vertices.insert(vertex, id);
+        id
     }
 }
 
