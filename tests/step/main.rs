@@ -21,7 +21,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use clinothem::export::ExportError;
-use clinothem::export::step::{Content, Document, Node, Protocol, assembly, shared};
+use clinothem::export::step::{Content, Document, Exchange, Node, Protocol, assembly, shared};
 use occt_bridge::{
     Cancel, PartitionOptions, ReadPart, Shape, Solids, Threads, boundary, box_solid, defects,
     partition, read_step,
@@ -100,14 +100,21 @@ struct Written {
 
 impl Written {
     fn assembly(document: &Document, shapes: &[Shape]) -> Self {
-        let file = assembly(document, &boundary(shapes).unwrap()).unwrap();
-        Self::save(|path| Ok(file.save(path).unwrap()))
+        let file = assembly(document, &boundary(shapes).unwrap());
+        Self::of(&file.unwrap())
     }
 
     fn shared(document: &Document, names: &[&str], shapes: &[Shape]) -> Self {
         let names: Vec<String> = names.iter().map(ToString::to_string).collect();
-        let file = shared(document, &names, &boundary(shapes).unwrap()).unwrap();
-        Self::save(|path| Ok(file.save(path).unwrap()))
+        let file = shared(document, &names, &boundary(shapes).unwrap());
+        Self::of(&file.unwrap())
+    }
+
+    fn of(file: &Exchange) -> Self {
+        Self::save(|path| {
+            file.save(path).unwrap();
+            Ok(())
+        })
     }
 
     fn save(write: impl FnOnce(&Path) -> Result<(), ExportError>) -> Self {

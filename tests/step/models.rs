@@ -98,12 +98,7 @@ fn nodules_have_voids_poles_and_rational_surfaces() {
         let (_, loops) = entities.face(*face);
         loops.iter().any(|edges| entities.below(*edges).len() == 2)
     };
-    assert!(
-        entities
-            .named("ADVANCED_FACE")
-            .iter()
-            .any(|face| lune(face))
-    );
+    assert!(entities.named("ADVANCED_FACE").iter().any(lune));
     assert_read(&built, &written);
 }
 

@@ -95,13 +95,12 @@ impl<'a> Geometry<'a> {
         }
         let boundary = self.boundary;
         let face = &boundary.faces[side.face];
-        let on = match Plane::of(&boundary.surfaces[face.surface]) {
-            Some(plane) => last(to, Piece::Projected(plane, &boundary.curves[curve])),
-            None => {
-                let pcurve = face.loops[side.at.0][side.at.1].pcurve?;
-                let write = || last(to, Piece::Pcurve(&boundary.pcurves[pcurve]));
-                *self.pcurves.entry(pcurve).or_insert_with(write)
-            }
+        let on = if let Some(plane) = Plane::of(&boundary.surfaces[face.surface]) {
+            last(to, Piece::Projected(plane, &boundary.curves[curve]))
+        } else {
+            let pcurve = face.loops[side.at.0][side.at.1].pcurve?;
+            let write = || last(to, Piece::Pcurve(&boundary.pcurves[pcurve]));
+            *self.pcurves.entry(pcurve).or_insert_with(write)
         };
         let surface = self.surface(to, side.face);
         let space = *self.spaces.entry(side.face).or_insert_with(|| {

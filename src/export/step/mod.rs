@@ -53,7 +53,7 @@ fn kernel_error(error: &BridgeError) -> ExportError {
     }
 }
 
-fn save(file: Exchange, path: &Path) -> Result<(), ExportError> {
+fn save(file: &Exchange, path: &Path) -> Result<(), ExportError> {
     file.save(path).map_err(|source| ExportError::File {
         path: path.to_path_buf(),
         source,
@@ -82,7 +82,7 @@ pub fn write_assembly(
         .collect::<Result<Vec<_>, _>>()
         .and_then(|solids| kernel::boundary(&solids))
         .map_err(|error| kernel_error(&error))?;
-    save(self::assembly(&document, &boundary)?, path)
+    save(&self::assembly(&document, &boundary)?, path)
 }
 
 /// Writes the shared flavour.
@@ -104,7 +104,7 @@ pub fn write_shared(
         .and_then(|solids| kernel::boundary(&solids))
         .map_err(|error| kernel_error(&error))?;
     let document = document(model, protocol, group(ascii(&model.name), Vec::new()));
-    save(shared(&document, &names, &boundary)?, path)
+    save(&shared(&document, &names, &boundary)?, path)
 }
 
 /// Writes the NURBS surfaces of all bodies, untrimmed, one part a sheet.
@@ -143,9 +143,14 @@ pub fn write_surfaces(
             nodes.push(group(rules.name.clone(), children));
         }
     }
+    if faces.is_empty() {
+        return Err(ExportError::Step(
+            "no body of the model has a surface of its own".to_owned(),
+        ));
+    }
     let document = document(model, protocol, group(ascii(&model.name), nodes));
     let boundary = kernel::boundary(&faces).map_err(|error| kernel_error(&error))?;
-    save(self::assembly(&document, &boundary)?, path)
+    save(&self::assembly(&document, &boundary)?, path)
 }
 
 fn document(model: &Model, protocol: Protocol, root: Node) -> Document {
