@@ -97,7 +97,7 @@ pub enum BoundaryShape {
 ///
 /// # Errors
 /// [`BridgeError::Input`] if no shape is given or one has no face; [`BridgeError::Kernel`] names a curve or a surface that is neither
-/// straight nor a B-spline, and an edge without a curve.
+/// straight nor a B-spline, an edge without a curve, and a number that is not finite.
 pub fn boundary(shapes: &[Shape]) -> Result<Boundary, BridgeError> {
     let operation = "taking shapes apart";
     if shapes.is_empty() {
@@ -106,7 +106,15 @@ pub fn boundary(shapes: &[Shape]) -> Result<Boundary, BridgeError> {
     let mut rows = bridge::BoundaryRows::default();
     let numbers =
         bridge::boundary_of(&*list(shapes)?, &mut rows).map_err(|e| from_kernel(operation, &e))?;
-    Ok(read(&rows, numbers.as_slice()))
+    let numbers = numbers.as_slice();
+    let mut all = rows.vertices.iter().chain(numbers);
+    if let Some(value) = all.find(|value| !value.is_finite()) {
+        return Err(BridgeError::Kernel {
+            operation,
+            message: format!("a coordinate, knot or weight is {value}"),
+        });
+    }
+    Ok(read(&rows, numbers))
 }
 
 fn read(rows: &bridge::BoundaryRows, numbers: &[f64]) -> Boundary {

@@ -23,7 +23,10 @@ pub(crate) fn reals(body: &str) -> Vec<f64> {
         .split(',')
         .map(|number| {
             let known = |c: char| c.is_ascii_digit() || ".E-".contains(c);
-            assert!(number.contains('.') && number.chars().all(known), "{number}");
+            assert!(
+                number.contains('.') && number.chars().all(known),
+                "{number}"
+            );
             number.parse().unwrap()
         })
         .collect()

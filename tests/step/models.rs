@@ -1,6 +1,6 @@
 //! Committed models: what the report says is what a reader finds.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use clinothem::assembly::Engine;
 use clinothem::export::step::{Protocol, write_assembly, write_shared, write_surfaces};
@@ -118,6 +118,30 @@ fn rules_of_every_kind_and_both_engines_are_read_as_they_were_built() {
     }
 }
 
+/// Of three or four faces around an edge, those on splines keep its curves on them.
+fn assert_splines_first(entities: &Entities) {
+    let is_plane = |surface: &usize| entities.body(*surface).starts_with("PLANE(");
+    let mut around: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for face in entities.named("ADVANCED_FACE") {
+        let (surface, loops) = entities.face(face);
+        for oriented in loops.iter().flat_map(|edges| entities.below(*edges)) {
+            let curve = entities.edge(oriented).1;
+            around.entry(curve).or_default().insert(surface);
+        }
+    }
+    let mut crowded = 0;
+    for (curve, surfaces) in around {
+        let named = entities.below(curve)[1..].to_vec();
+        let named: Vec<usize> = named.iter().map(|side| entities.below(*side)[0]).collect();
+        let splines = |of: &mut dyn Iterator<Item = &usize>| of.filter(|s| !is_plane(s)).count();
+        let wanted = splines(&mut surfaces.iter()).min(2);
+        assert_eq!(splines(&mut named.iter()), wanted, "#{curve}");
+        assert_eq!(named.len(), surfaces.len().min(2));
+        crowded += usize::from(surfaces.len() > 2);
+    }
+    assert!(crowded > 0);
+}
+
 #[test]
 fn the_shared_flavour_of_a_model_has_every_face_once() {
     let model = checked(&source("quickstart/quickstart"));
@@ -129,6 +153,7 @@ fn the_shared_flavour_of_a_model_has_every_face_once() {
         let entities = Entities::of(&written.text());
         entities.check();
         assert_eq!(entities.count("SHELL_BASED_SURFACE_MODEL"), built.solids());
+        assert_splines_first(&entities);
         let [all] = &written.read()[..] else {
             panic!("not one part")
         };

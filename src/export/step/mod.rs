@@ -17,6 +17,7 @@
 mod document;
 mod geometry;
 mod part21;
+mod presentation;
 mod products;
 mod shapes;
 mod topology;

@@ -139,35 +139,36 @@ impl Text {
         }
     }
 
-    /// Numbers in brackets.
-    pub(super) fn reals(&mut self, values: &[f64]) {
+    /// Values in brackets.
+    pub(super) fn list<T>(
+        &mut self,
+        values: impl IntoIterator<Item = T>,
+        write: impl Fn(&mut Self, T),
+    ) {
         self.push("(");
-        for (at, value) in values.iter().enumerate() {
+        for (at, value) in values.into_iter().enumerate() {
             self.push(separator(at));
-            self.real(*value);
+            write(self, value);
         }
         self.push(")");
+    }
+
+    /// Numbers in brackets.
+    pub(super) fn reals(&mut self, values: &[f64]) {
+        self.list(values, |to, value| to.real(*value));
     }
 
     /// Counts in brackets.
     pub(super) fn wholes(&mut self, values: &[usize]) {
-        self.push("(");
-        for (at, value) in values.iter().enumerate() {
-            self.push(separator(at));
-            self.whole(*value);
-        }
-        self.push(")");
+        self.list(values, |to, value| to.whole(*value));
     }
 
     /// References to successive entities, in brackets.
     pub(super) fn run(&mut self, first: Id, count: usize) {
-        self.push("(");
-        for at in 0..count {
-            self.push(separator(at));
-            self.push("#");
-            self.whole(first.0 + at);
-        }
-        self.push(")");
+        self.list(0..count, |to, at| {
+            to.push("#");
+            to.whole(first.0 + at);
+        });
     }
 
     /// `#n=`.

@@ -1,4 +1,4 @@
-//! Products, their tree, layers and colours.
+//! Products and their tree.
 //!
 //! The entities are those that the kernel writes, which every reader takes: one PRODUCT per node, placed in its parent by a
 //! `NEXT_ASSEMBLY_USAGE_OCCURRENCE`; its solids, or its faces if it has none, are on layers and coloured themselves. Each
@@ -10,6 +10,7 @@ use super::Protocol;
 use super::document::{Content, Node};
 use super::geometry::Geometry;
 use super::part21::{Draft, Id, List, Quoted};
+use super::presentation::Presentation;
 use super::topology::Topology;
 use crate::assembly::kernel::BoundaryShape;
 
@@ -72,22 +73,7 @@ struct Common {
 
 impl Common {
     fn write(to: &mut Draft<'_>, protocol: Protocol) -> Self {
-        let (application, status, year) = match protocol {
-            Protocol::Ap214 => (
-                "core data for automotive mechanical design processes",
-                "automotive_design",
-                2000,
-            ),
-            Protocol::Ap242 => (
-                "Managed model based 3d engineering",
-                "ap242_managed_model_based_3d_engineering",
-                2013,
-            ),
-        };
-        let application = to.add(format_args!("APPLICATION_CONTEXT('{application}')"));
-        to.add(format_args!(
-            "APPLICATION_PROTOCOL_DEFINITION('international standard','{status}',{year},{application})"
-        ));
+        let application = application(to, protocol);
         let metre = to.add(format_args!(
             "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.))"
         ));
@@ -120,6 +106,38 @@ impl Common {
             placement: placement(to, &axes),
         }
     }
+
+    /// A context for one representation.
+    fn context(&self, to: &mut Draft<'_>) -> Id {
+        to.add(format_args!(
+            "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({}))\
+             GLOBAL_UNIT_ASSIGNED_CONTEXT({})\
+             REPRESENTATION_CONTEXT('Context #1','3D Context with UNIT and UNCERTAINTY'))",
+            self.uncertainty,
+            List(&self.units)
+        ))
+    }
+}
+
+/// The context of the application protocol.
+fn application(to: &mut Draft<'_>, protocol: Protocol) -> Id {
+    let (application, name, year) = match protocol {
+        Protocol::Ap214 => (
+            "core data for automotive mechanical design processes",
+            "automotive_design",
+            2000,
+        ),
+        Protocol::Ap242 => (
+            "Managed model based 3d engineering",
+            "ap242_managed_model_based_3d_engineering",
+            2013,
+        ),
+    };
+    let application = to.add(format_args!("APPLICATION_CONTEXT('{application}')"));
+    to.add(format_args!(
+        "APPLICATION_PROTOCOL_DEFINITION('international standard','{name}',{year},{application})"
+    ));
+    application
 }
 
 fn placement(to: &mut Draft<'_>, [origin, axis, x]: &[Id; 3]) -> Id {
@@ -133,10 +151,7 @@ pub(super) struct Products<'a, 'd> {
     /// How often a name was given.
     names: HashMap<String, usize>,
     occurrences: usize,
-    /// In the order of their first use.
-    layers: Vec<(String, Vec<Id>)>,
-    /// Colours with what has them, by product and its context.
-    colored: Vec<([u8; 3], Vec<Id>, Id)>,
+    presentation: Presentation,
 }
 
 impl<'a, 'd> Products<'a, 'd> {
@@ -147,8 +162,7 @@ impl<'a, 'd> Products<'a, 'd> {
             common,
             names: HashMap::new(),
             occurrences: 0,
-            layers: Vec::new(),
-            colored: Vec::new(),
+            presentation: Presentation::default(),
         }
     }
 
@@ -177,15 +191,9 @@ impl<'a, 'd> Products<'a, 'd> {
                     "MANIFOLD_SURFACE_SHAPE_REPRESENTATION"
                 };
                 let product = self.product(&node.name, description, kind, items.roots);
-                if let Some(layer) = &node.layer {
-                    match self.layers.iter_mut().find(|(name, _)| name == layer) {
-                        Some((_, on)) => on.extend(&items.styled),
-                        None => self.layers.push((layer.clone(), items.styled.clone())),
-                    }
-                }
-                if let Some(color) = node.color {
-                    self.colored.push((color, items.styled, product.context));
-                }
+                let layer = node.layer.as_deref();
+                self.presentation
+                    .add(items.styled, layer, node.color, product.context);
                 product
             }
             Content::Nodes(nodes) => {
@@ -227,12 +235,11 @@ impl<'a, 'd> Products<'a, 'd> {
         let Common {
             product_context,
             definition_context,
-            uncertainty,
-            units,
             placement,
             ..
         } = &self.common;
         let to = &mut *self.to;
+        let context = self.common.context(to);
         let product = to.add(format_args!(
             "PRODUCT({},{},{},({product_context}))",
             Quoted(&identifier),
@@ -249,12 +256,6 @@ impl<'a, 'd> Products<'a, 'd> {
             "PRODUCT_DEFINITION('design','',{formation},{definition_context})"
         ));
         let shape = to.add(format_args!("PRODUCT_DEFINITION_SHAPE('','',{definition})"));
-        let context = to.add(format_args!(
-            "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({uncertainty}))\
-             GLOBAL_UNIT_ASSIGNED_CONTEXT({})\
-             REPRESENTATION_CONTEXT('Context #1','3D Context with UNIT and UNCERTAINTY'))",
-            List(units)
-        ));
         items.insert(0, *placement);
         let representation = to.add(format_args!("{kind}('',{},{context})", List(&items)));
         to.add(format_args!(
@@ -296,51 +297,6 @@ impl<'a, 'd> Products<'a, 'd> {
 
     /// Layers and colours.
     pub(super) fn finish(self) {
-        let to = self.to;
-        for (name, on) in &self.layers {
-            to.add(format_args!(
-                "PRESENTATION_LAYER_ASSIGNMENT({},'visible',{})",
-                Quoted(name),
-                List(on)
-            ));
-        }
-        let mut styles: HashMap<[u8; 3], Id> = HashMap::new();
-        for (color, items, context) in &self.colored {
-            let style = *styles.entry(*color).or_insert_with(|| style(to, *color));
-            let styled: Vec<Id> = items
-                .iter()
-                .map(|item| to.add(format_args!("STYLED_ITEM('color',({style}),{item})")))
-                .collect();
-            to.add(format_args!(
-                "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{},{context})",
-                List(&styled)
-            ));
-        }
+        self.presentation.write(self.to);
     }
-}
-
-/// How everything of a colour looks: surfaces and curves.
-fn style(to: &mut Draft<'_>, color: [u8; 3]) -> Id {
-    let rgb = to.write(|text| {
-        text.push("COLOUR_RGB(''");
-        for part in color {
-            text.push(",");
-            text.real(f64::from(part) / 255.0);
-        }
-        text.push(")");
-    });
-    let filling = to.add(format_args!("FILL_AREA_STYLE_COLOUR('',{rgb})"));
-    let filling = to.add(format_args!("FILL_AREA_STYLE('',({filling}))"));
-    let filling = to.add(format_args!("SURFACE_STYLE_FILL_AREA({filling})"));
-    let side = to.add(format_args!("SURFACE_SIDE_STYLE('',({filling}))"));
-    let surface = to.add(format_args!("SURFACE_STYLE_USAGE(.BOTH.,{side})"));
-    let font = to.add(format_args!(
-        "DRAUGHTING_PRE_DEFINED_CURVE_FONT('continuous')"
-    ));
-    let curve = to.add(format_args!(
-        "CURVE_STYLE('',{font},POSITIVE_LENGTH_MEASURE(0.1),{rgb})"
-    ));
-    to.add(format_args!(
-        "PRESENTATION_STYLE_ASSIGNMENT(({surface},{curve}))"
-    ))
 }

@@ -204,15 +204,12 @@ pub(super) fn write_surface(surface: &Surface, first: Id, to: &mut Text) {
     let spline = Spline {
         kind: "SURFACE",
         shape: |to: &mut Text| {
-            to.format(format_args!("{degree_u},{degree_v},("));
-            for at in 0..rows {
-                to.push(if at == 0 { "" } else { "," });
-                to.run(first.after(at * row), row);
-            }
+            to.format(format_args!("{degree_u},{degree_v},"));
+            to.list(0..rows, |to, at| to.run(first.after(at * row), row));
             let mut columns = poles.chunks(row);
             let closed_u = Logical(poles[..row] == poles[poles.len() - row..]);
             let closed_v = Logical(columns.all(|column| column.first() == column.last()));
-            to.format(format_args!("),.UNSPECIFIED.,{closed_u},{closed_v},.F."));
+            to.format(format_args!(",.UNSPECIFIED.,{closed_u},{closed_v},.F."));
         },
         knots: |to: &mut Text| {
             to.wholes(&times_u);
@@ -224,14 +221,7 @@ pub(super) fn write_surface(surface: &Surface, first: Id, to: &mut Text) {
             to.reals(&values_v);
         },
         weights: weights.as_ref().map(|weights| {
-            move |to: &mut Text| {
-                to.push("(");
-                for (at, row) in weights.chunks(row).enumerate() {
-                    to.push(if at == 0 { "" } else { "," });
-                    to.reals(row);
-                }
-                to.push(")");
-            }
+            move |to: &mut Text| to.list(weights.chunks(row), |to, row| to.reals(row))
         }),
     };
     spline.write(to);
