@@ -155,12 +155,12 @@ impl Text {
 
     /// Numbers in brackets.
     pub(super) fn reals(&mut self, values: &[f64]) {
-        self.list(values, |to, value| to.real(*value));
+        self.list(values.iter().copied(), Self::real);
     }
 
     /// Counts in brackets.
     pub(super) fn wholes(&mut self, values: &[usize]) {
-        self.list(values, |to, value| to.whole(*value));
+        self.list(values.iter().copied(), Self::whole);
     }
 
     /// References to successive entities, in brackets.

@@ -220,9 +220,9 @@ pub(super) fn write_surface(surface: &Surface, first: Id, to: &mut Text) {
             to.push(",");
             to.reals(&values_v);
         },
-        weights: weights.as_ref().map(|weights| {
-            move |to: &mut Text| to.list(weights.chunks(row), |to, row| to.reals(row))
-        }),
+        weights: weights
+            .as_ref()
+            .map(|weights| move |to: &mut Text| to.list(weights.chunks(row), Text::reals)),
     };
     spline.write(to);
 }
