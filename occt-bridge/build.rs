@@ -17,7 +17,7 @@ const OLDEST: (u32, u32) = (7, 6);
 const TOO_NEW: u32 = 8;
 
 /// Every shim: one per task.
-const SHIMS: [&str; 10] = [
+const SHIMS: [&str; 11] = [
     "shape",
     "geometry",
     "topology",
@@ -28,6 +28,7 @@ const SHIMS: [&str; 10] = [
     "mesh",
     "step",
     "brep",
+    "boundary",
 ];
 
 /// Toolkits whose names never changed.

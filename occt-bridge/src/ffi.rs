@@ -162,6 +162,42 @@ pub(crate) mod bridge {
         solids: MergeData,
     }
 
+    struct BoundaryEdgeRow {
+        degenerate: bool,
+        curve: u32,
+        start: u32,
+        end: u32,
+    }
+
+    /// A degenerate edge, and any on a plane, has no pcurve.
+    struct BoundaryUseRow {
+        edge: u32,
+        has_pcurve: bool,
+        pcurve: u32,
+    }
+
+    struct BoundaryFaceRow {
+        surface: u32,
+        loops: u32,
+    }
+
+    /// The way back: what `AssembledData` says, of shapes. Of a shape that is no solid, no shells are counted; its faces follow as
+    /// one.
+    #[derive(Default)]
+    struct BoundaryRows {
+        vertices: Vec<f64>,
+        curves: Vec<CurveRow>,
+        pcurves: Vec<CurveRow>,
+        surfaces: Vec<SurfaceRow>,
+        edges: Vec<BoundaryEdgeRow>,
+        faces: Vec<BoundaryFaceRow>,
+        loops: Vec<u32>,
+        uses: Vec<BoundaryUseRow>,
+        shells_of_shapes: Vec<u32>,
+        faces_of_shells: Vec<u32>,
+        uses_of_faces: Vec<u32>,
+    }
+
     struct BoxData {
         min: [f64; 3],
         max: [f64; 3],
@@ -193,25 +229,6 @@ pub(crate) mod bridge {
         triangles: Vec<u32>,
     }
 
-    struct StepHeader {
-        name: String,
-        system: String,
-        description: String,
-        ap242: bool,
-    }
-
-    /// In tree order: a parent comes before its children. The shapes of a leaf follow each other in the list.
-    struct StepNodeData {
-        name: String,
-        parent: i64,
-        has_color: bool,
-        color: [u8; 3],
-        layer: String,
-        description: String,
-        first_shape: usize,
-        shapes: usize,
-    }
-
     struct ReadPartData {
         name: String,
         path: String,
@@ -237,6 +254,7 @@ pub(crate) mod bridge {
         include!("occt-bridge/shim/mesh.hpp");
         include!("occt-bridge/shim/step.hpp");
         include!("occt-bridge/shim/brep.hpp");
+        include!("occt-bridge/shim/boundary.hpp");
 
         type ShapeHandle;
         type ShapeList;
@@ -312,20 +330,13 @@ pub(crate) mod bridge {
             parallel: bool,
         ) -> Result<Vec<MeshData>>;
 
-        fn write_assembly(
-            path: &str,
-            header: &StepHeader,
-            nodes: &Vec<StepNodeData>,
-            shapes: &ShapeList,
-        ) -> Result<()>;
-        fn write_shared(
-            path: &str,
-            header: &StepHeader,
-            shape: &ShapeHandle,
-            names: &Vec<String>,
-        ) -> Result<()>;
         fn read_parts(path: &str, tables: &mut Vec<ReadPartData>) -> Result<UniquePtr<ReadParts>>;
         fn shape(self: &ReadParts, index: usize) -> Result<UniquePtr<ShapeHandle>>;
+
+        fn boundary_of(
+            list: &ShapeList,
+            rows: &mut BoundaryRows,
+        ) -> Result<UniquePtr<CxxVector<f64>>>;
 
         fn write_brep_file(shape: &ShapeHandle, path: &str) -> Result<()>;
         fn read_brep_file(path: &str) -> Result<UniquePtr<ShapeHandle>>;

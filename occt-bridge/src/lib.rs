@@ -1,8 +1,7 @@
 //! OpenCASCADE operations that clinothem needs, as plain Rust types.
 //!
-//! Lengths are metres, areas square metres, volumes cubic metres; the kernel itself has no unit, and [`write_step_assembly`] declares
-//! the metre. Every operation returns a [`Result`]: OpenCASCADE's exceptions, error alerts and empty results all become a
-//! [`BridgeError`].
+//! Lengths are metres, areas square metres, volumes cubic metres; the kernel itself has no unit. Every operation returns a
+//! [`Result`]: OpenCASCADE's exceptions, error alerts and empty results all become a [`BridgeError`].
 //!
 //! ```
 //! # fn main() -> Result<(), occt_bridge::BridgeError> {
@@ -21,6 +20,7 @@
 //! ```
 
 mod assembled;
+mod boundary;
 mod brep;
 mod bytes;
 mod check;
@@ -39,6 +39,9 @@ mod tables;
 mod topology;
 
 pub use assembled::{OnSurface, TableEdge, TableFace, TableSolid, TableVertex, Tables};
+pub use boundary::{
+    Boundary, BoundaryEdge, BoundaryFace, BoundaryShape, BoundaryUse, Path, Shell, boundary,
+};
 pub use brep::{read_brep, write_brep};
 pub use check::{Defect, defects};
 pub use error::BridgeError;
@@ -53,9 +56,7 @@ pub use partition::{
 };
 pub use shape::{Shape, ShapeKind, compound, set_threads, version};
 pub use solids::{Solid, SolidFace, Solids};
-pub use step::{
-    ReadPart, StepDocument, StepNode, StepSchema, read_step, write_step_assembly, write_step_shared,
-};
+pub use step::{ReadPart, read_step};
 pub use topology::{
     Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology, box_solid, faces, solid,
 };

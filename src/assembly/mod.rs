@@ -127,14 +127,12 @@ impl Assembly {
             .find_map(|origin| origin.argument.checked_sub(self.first_shell))
     }
 
-    /// All solids in one shape with common faces, in the order of [`Measured::pieces`].
-    pub(crate) fn ordered_compound(&self) -> Result<kernel::Shape, kernel::BridgeError> {
-        let solids = self
-            .measured
-            .pieces
-            .iter()
-            .map(|piece| self.solids.shape_of(piece.solid));
-        kernel::compound(&solids.collect::<Result<Vec<_>, _>>()?)
+    /// All solids in the order of [`Measured::pieces`]; they have common faces.
+    pub(crate) fn ordered_solids(&self) -> Result<Vec<kernel::Shape>, kernel::BridgeError> {
+        let pieces = self.measured.pieces.iter();
+        pieces
+            .map(|piece| self.solids.shape_of(piece.solid))
+            .collect()
     }
 }
 

@@ -7,10 +7,10 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
-use super::{files, interrupt, print, summary};
+use super::{interrupt, print, summary};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, proof, worker};
 use crate::export::report::{Parts, Report};
-use crate::export::{ExportError, brep, step, table};
+use crate::export::{ExportError, brep, file, step, table};
 use crate::model::plan::AssemblyPlan;
 
 /// Build watertight solids and write them as STEP, with a report and the proof that they are right.
@@ -285,7 +285,7 @@ impl Output<'_> {
                 names.push(RUN.to_owned());
                 for name in &names {
                     let from = staging.path().join(name);
-                    files::readable(&from).map_err(failed)?;
+                    file::readable(&from).map_err(failed)?;
                     std::fs::rename(from, self.folder.join(name)).map_err(failed)?;
                 }
                 Ok(names)

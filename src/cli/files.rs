@@ -1,35 +1,11 @@
-//! Files that are whole or not there: written beside their place, then renamed.
+//! Files that the program writes by itself.
 
-use std::io::Write;
 use std::path::Path;
 
 use super::failure::Failure;
+use crate::export::file;
 
-/// Writes a file under a temporary name in the same folder and renames it.
+/// Writes a file that is whole or not there.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |error: &std::io::Error| Failure::file("write", path, error);
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut file = tempfile::Builder::new()
-        .prefix(".clinothem-")
-        .tempfile_in(folder)
-        .map_err(|error| failed(&error))?;
-    file.write_all(bytes).map_err(|error| failed(&error))?;
-    readable(file.path()).map_err(|error| failed(&error))?;
-    file.persist(path).map_err(|error| failed(&error.error))?;
-    Ok(())
-}
-
-/// Temporary files are private; results have the usual permissions.
-pub(super) fn readable(path: &Path) -> std::io::Result<()> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o644))?;
-    }
-    #[cfg(not(unix))]
-    let _ = path;
-    Ok(())
+    file::write(path, [bytes]).map_err(|error| Failure::file("write", path, &error))
 }

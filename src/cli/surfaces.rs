@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::args::ModelArgs;
 use super::build::Schema;
 use super::failure::Failure;
-use super::{files, interrupt, load, print};
-use crate::export::step;
+use super::{interrupt, load, print};
+use crate::export::{file, step};
 
 /// Write the NURBS surfaces of all bodies as STEP, untrimmed, without assembling solids.
 #[derive(Debug, clap::Args)]
@@ -52,7 +52,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         args.step_schema.into(),
     )
     .map_err(|error| Failure::Surroundings(error.to_string()))?;
-    files::readable(&unfinished)
+    file::readable(&unfinished)
         .and_then(|()| std::fs::rename(&unfinished, &path))
         .map_err(|error| Failure::file("write", &path, &error))?;
     interrupt::unfinished_in(None);

@@ -9,7 +9,8 @@ use crate::assembly::{Assembly, kernel};
 /// Writes all solids as one shape with common faces, background first, then by volume.
 pub fn write(path: &Path, assembly: &Assembly) -> Result<(), ExportError> {
     assembly
-        .ordered_compound()
+        .ordered_solids()
+        .and_then(|solids| kernel::compound(&solids))
         .and_then(|shape| kernel::write_brep(path, &shape))
         .map_err(|error| ExportError::Kernel {
             what: "BREP",

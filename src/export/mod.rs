@@ -4,6 +4,7 @@
 pub mod bodies;
 #[cfg(feature = "occt")]
 pub mod brep;
+pub mod file;
 #[cfg(feature = "occt")]
 pub mod mesh;
 pub mod picture;
@@ -35,6 +36,17 @@ pub enum ExportError {
         volume: String,
         /// Why.
         source: crate::nurbs::SurfaceError,
+    },
+    /// What a STEP file was to hold does not fit together.
+    #[error("STEP: {0}")]
+    Step(String),
+    /// The system could not write a file.
+    #[error("cannot write {path}: {source}")]
+    File {
+        /// The file.
+        path: std::path::PathBuf,
+        /// Why.
+        source: std::io::Error,
     },
     /// A table could not be written.
     #[error("{0}")]

@@ -1,0 +1,286 @@
+//! The text of an exchange file (ISO 10303-21): entities with their numbers, and how values are spelt.
+//!
+//! Numbers have the fewest digits that give the same number back. Entities are numbered in the order in which they are
+//! written, so the text depends on nothing but what was said.
+
+use std::fmt::{self, Display, Write as _};
+use std::io;
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::shapes::Piece;
+use crate::export::file;
+
+/// References on one line of a list.
+const PER_LINE: usize = 10;
+/// Parts that one task writes.
+const PER_TASK: usize = 64;
+
+/// The number of an entity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Id(usize);
+
+impl Id {
+    /// The entity that is so many places after this one.
+    pub(super) fn after(self, places: usize) -> Self {
+        Self(self.0 + places)
+    }
+}
+
+impl Display for Id {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "#{}", self.0)
+    }
+}
+
+/// References in brackets.
+pub(super) struct List<'a>(pub(super) &'a [Id]);
+
+impl Display for List<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_char('(')?;
+        for (at, id) in self.0.iter().enumerate() {
+            f.write_str(separator(at))?;
+            write!(f, "{id}")?;
+        }
+        f.write_char(')')
+    }
+}
+
+/// What comes before an entry of a list.
+fn separator(at: usize) -> &'static str {
+    match at {
+        0 => "",
+        _ if at.is_multiple_of(PER_LINE) => ",\n",
+        _ => ",",
+    }
+}
+
+/// A string in quotes: quotes and backslashes doubled, what is not ASCII as UTF-16.
+pub(super) struct Quoted<'a>(pub(super) &'a str);
+
+impl Display for Quoted<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_char('\'')?;
+        for c in self.0.chars() {
+            match c {
+                '\'' | '\\' => write!(f, "{c}{c}")?,
+                ' '..='~' => f.write_char(c)?,
+                _ => {
+                    f.write_str("\\X2\\")?;
+                    for unit in c.encode_utf16(&mut [0; 2]) {
+                        write!(f, "{unit:04X}")?;
+                    }
+                    f.write_str("\\X0\\")?;
+                }
+            }
+        }
+        f.write_char('\'')
+    }
+}
+
+/// True or false.
+pub(super) struct Logical(pub(super) bool);
+
+impl Display for Logical {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.0 { ".T." } else { ".F." })
+    }
+}
+
+/// Text that only grows.
+#[derive(Debug, Default)]
+pub(super) struct Text(String);
+
+impl Text {
+    pub(super) fn push(&mut self, text: &str) {
+        self.0.push_str(text);
+    }
+
+    pub(super) fn format(&mut self, text: fmt::Arguments<'_>) {
+        // Writing to a string cannot fail.
+        let _ = self.0.write_fmt(text);
+    }
+
+    pub(super) fn whole(&mut self, mut number: usize) {
+        let mut digits = [0; 20];
+        let mut at = digits.len();
+        loop {
+            at -= 1;
+            digits[at] = b"0123456789"[number % 10];
+            number /= 10;
+            if number == 0 {
+                break;
+            }
+        }
+        self.0
+            .extend(digits[at..].iter().map(|digit| char::from(*digit)));
+    }
+
+    /// A finite number, always with a point: `1000.`, `-0.5`, `1.E-7`.
+    pub(super) fn real(&mut self, value: f64) {
+        let mut buffer = ryu::Buffer::new();
+        let text = buffer.format_finite(value);
+        let (digits, exponent) = match text.split_once('e') {
+            Some((digits, exponent)) => (digits, Some(exponent)),
+            None => (text, None),
+        };
+        match digits.strip_suffix(".0") {
+            Some(whole) => self.format(format_args!("{whole}.")),
+            None => self.push(digits),
+        }
+        if !digits.contains('.') {
+            self.push(".");
+        }
+        if let Some(exponent) = exponent {
+            self.push("E");
+            self.push(exponent);
+        }
+    }
+
+    /// Values in brackets.
+    pub(super) fn list<T>(
+        &mut self,
+        values: impl IntoIterator<Item = T>,
+        write: impl Fn(&mut Self, T),
+    ) {
+        self.push("(");
+        for (at, value) in values.into_iter().enumerate() {
+            self.push(separator(at));
+            write(self, value);
+        }
+        self.push(")");
+    }
+
+    /// Numbers in brackets.
+    pub(super) fn reals(&mut self, values: &[f64]) {
+        self.list(values.iter().copied(), Self::real);
+    }
+
+    /// Counts in brackets.
+    pub(super) fn wholes(&mut self, values: &[usize]) {
+        self.list(values.iter().copied(), Self::whole);
+    }
+
+    /// References to successive entities, in brackets.
+    pub(super) fn run(&mut self, first: Id, count: usize) {
+        self.list(0..count, |to, at| {
+            to.push("#");
+            to.whole(first.0 + at);
+        });
+    }
+
+    /// `#n=`.
+    pub(super) fn begin(&mut self, id: Id) {
+        self.push("#");
+        self.whole(id.0);
+        self.push("=");
+    }
+
+    /// The end of an entity.
+    pub(super) fn end(&mut self) {
+        self.push(";\n");
+    }
+
+    /// A whole entity.
+    pub(super) fn entity(&mut self, id: Id, body: fmt::Arguments<'_>) {
+        self.begin(id);
+        self.format(body);
+        self.end();
+    }
+}
+
+/// A file in the making. Large geometry only takes its numbers; it is written at the end, in parallel, where it belongs.
+pub(super) struct Draft<'a> {
+    parts: Vec<Part<'a>>,
+    /// What follows them.
+    text: Text,
+    /// Number of the last entity.
+    last: usize,
+}
+
+enum Part<'a> {
+    Text(Text),
+    Later(Id, Piece<'a>),
+}
+
+impl<'a> Draft<'a> {
+    /// Begins a file with what its header says.
+    pub(super) fn new(header: fmt::Arguments<'_>) -> Self {
+        let mut text = Text::default();
+        text.format(format_args!(
+            "ISO-10303-21;\nHEADER;\n{header}ENDSEC;\nDATA;\n"
+        ));
+        Self {
+            parts: Vec::new(),
+            text,
+            last: 0,
+        }
+    }
+
+    /// Adds an entity.
+    pub(super) fn add(&mut self, body: fmt::Arguments<'_>) -> Id {
+        self.write(|text| text.format(body))
+    }
+
+    /// Adds an entity that writes itself.
+    pub(super) fn write(&mut self, body: impl FnOnce(&mut Text)) -> Id {
+        self.last += 1;
+        let id = Id(self.last);
+        self.text.begin(id);
+        body(&mut self.text);
+        self.text.end();
+        id
+    }
+
+    /// Adds geometry; returns the first of its entities.
+    pub(super) fn defer(&mut self, piece: Piece<'a>) -> Id {
+        let first = Id(self.last + 1);
+        self.last += piece.entities();
+        self.parts.push(Part::Text(std::mem::take(&mut self.text)));
+        self.parts.push(Part::Later(first, piece));
+        first
+    }
+
+    /// Ends the file.
+    pub(super) fn finish(mut self) -> Exchange {
+        self.text.push("ENDSEC;\nEND-ISO-10303-21;\n");
+        self.parts.push(Part::Text(self.text));
+        let pieces = self.parts.par_chunks(PER_TASK).map(|parts| {
+            let mut whole = Text::default();
+            for part in parts {
+                match part {
+                    Part::Text(text) => whole.push(&text.0),
+                    Part::Later(first, piece) => piece.write(*first, &mut whole),
+                }
+            }
+            whole.0
+        });
+        Exchange {
+            pieces: pieces.collect(),
+        }
+    }
+}
+
+/// A file that is finished, but not yet on a disk.
+pub struct Exchange {
+    pieces: Vec<String>,
+}
+
+impl Exchange {
+    /// Writes the file: one that exists is whole, and an earlier one of that name is replaced.
+    ///
+    /// # Errors
+    /// If it cannot be written; then nothing is left.
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        file::write(path, self.pieces.iter().map(String::as_bytes))
+    }
+}
+
+impl fmt::Debug for Exchange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bytes: usize = self.pieces.iter().map(String::len).sum();
+        f.debug_struct("Exchange").field("bytes", &bytes).finish()
+    }
+}
