@@ -13,14 +13,14 @@ const PROBES: [f64; 5] = [0.11, 0.3, 0.52, 0.71, 0.9];
 pub struct Function {
     knots: KnotVector,
     coefficients: Vec<f64>,
-    /// The same, span by span, for quick values: where each starts, and what it is there.
-    starts: Vec<f64>,
+    /// The same, span by span, for quick values.
     pieces: Vec<Piece>,
 }
 
 /// A polynomial over a span between two distinct knots.
 #[derive(Clone, Debug, PartialEq)]
 struct Piece {
+    start: f64,
     /// One over the span's length.
     rate: f64,
     /// Coefficients of the powers of the part of the span that lies behind.
@@ -40,13 +40,14 @@ impl Piece {
             factor *= (end - start) / (k + 1) as f64;
         }
         Self {
+            start,
             rate: 1.0 / (end - start),
             powers,
         }
     }
 
-    /// The value at a part of the span.
-    fn value(&self, s: f64) -> f64 {
+    fn value(&self, t: f64) -> f64 {
+        let s = (t - self.start) * self.rate;
         self.powers.iter().rev().fold(0.0, |sum, c| sum * s + c)
     }
 }
@@ -61,15 +62,14 @@ impl Function {
         let mut rows = [values];
         interpolate::at_greville(knots, &mut rows)?;
         let [coefficients] = rows;
-        let ends: Vec<f64> = knots.distinct().iter().map(|knot| knot.0).collect();
-        let pieces = ends
+        let pieces = knots
+            .distinct()
             .windows(2)
-            .map(|ends| Piece::new(knots, &coefficients, ends[0], ends[1]))
+            .map(|ends| Piece::new(knots, &coefficients, ends[0].0, ends[1].0))
             .collect();
         Ok(Self {
             knots: knots.clone(),
             coefficients,
-            starts: ends[..ends.len() - 1].to_vec(),
             pieces,
         })
     }
@@ -88,8 +88,8 @@ impl Function {
     pub fn value(&self, t: f64) -> f64 {
         let (start, end) = self.knots.domain();
         let t = t.clamp(start, end);
-        let after = self.starts[1..].partition_point(|start| *start <= t);
-        self.pieces[after].value((t - self.starts[after]) * self.pieces[after].rate)
+        let after = self.pieces[1..].partition_point(|piece| piece.start <= t);
+        self.pieces[after].value(t)
     }
 
     /// The largest difference from `f` at five places of every span.
