@@ -234,6 +234,8 @@ fn trace(
         clip,
         stops: starts.iter().map(stop).collect(),
     };
+    let own = sheets.map(|sheet| regions.sheets[sheet].region);
+    let matters = |point: DVec3| regions.matter(own, point);
     let mut faults = Faults::default();
     let mut branches = Vec::new();
     for at in 0..starts.len() {
@@ -247,11 +249,11 @@ fn trace(
             continue;
         };
         starts[at].used = true;
-        finish(&mut branch, &mut starts, tolerances, &mut faults);
+        finish(&mut branch, &mut starts, tolerances, &matters, &mut faults);
         branches.push(branch);
     }
     let found = |node: Node| march.through(node);
-    let mut search = Search::new(pair, clip, branches, found);
+    let mut search = Search::new(pair, clip, branches, found, &matters);
     search.run();
     faults.undecided += search.undecided + usize::from(search.gave_up());
     let first_new = search
@@ -264,7 +266,7 @@ fn trace(
         // Only one branch starts at a root: one that ends at a root of another is the same, seen from a place where the
         // sheets are too nearly parallel to tell.
         if !ends_at_used_root(&branch, &starts, tolerances) {
-            finish(&mut branch, &mut starts, tolerances, &mut faults);
+            finish(&mut branch, &mut starts, tolerances, &matters, &mut faults);
             branches.push(branch);
         }
     }
@@ -337,10 +339,17 @@ fn ends_at_used_root(branch: &Branch, starts: &[Start], tolerances: Tolerances) 
 }
 
 /// Gives ends on borders their roots.
-fn finish(branch: &mut Branch, starts: &mut [Start], tolerances: Tolerances, faults: &mut Faults) {
+fn finish(
+    branch: &mut Branch,
+    starts: &mut [Start],
+    tolerances: Tolerances,
+    matters: &dyn Fn(DVec3) -> bool,
+    faults: &mut Faults,
+) {
     for which in 0..2 {
         let End::AtBorder(side, border) = branch.ends[which] else {
-            faults.tangents += usize::from(branch.ends[which] == End::Tangent);
+            let is_tangent = branch.ends[which] == End::Tangent;
+            faults.tangents += usize::from(is_tangent && matters(branch.end(which).point()));
             continue;
         };
         let point = branch.end(which).point();

@@ -191,6 +191,12 @@ impl Regions {
         self.firsts[region]..self.firsts[region + 1]
     }
 
+    /// Whether nothing hides either of two regions at a point.
+    pub(super) fn matter(&self, own: [usize; 2], point: DVec3) -> bool {
+        let inside = |region: usize| self.inside[region].holds(point);
+        self.relations.sides(&own, inside).is_some()
+    }
+
     /// Whether one of two sheets lands on the other.
     pub(super) fn touch(&self, a: usize, b: usize) -> bool {
         self.sheets[a].lands_on.contains(&b) || self.sheets[b].lands_on.contains(&a)

@@ -4,6 +4,8 @@
 //! loop, would need parallel normals somewhere), so one place on it is enough. An attempt to land on it that fails says
 //! nothing: the arc may be far from where it is looked for, so the halves are asked.
 
+use glam::DVec3;
+
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
@@ -30,18 +32,27 @@ pub(super) struct Search<'a, F> {
     pub(super) clip: Bounds,
     pub(super) branches: Vec<Branch>,
     pub(super) found: F,
+    /// Whether both regions may matter at a place; elsewhere sheets may come as near as they like.
+    matters: &'a dyn Fn(DVec3) -> bool,
     /// Places where the sheets come too near each other to decide.
     pub(super) undecided: usize,
     halvings: usize,
 }
 
 impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
-    pub(super) fn new(pair: Pair<'a>, clip: Bounds, branches: Vec<Branch>, found: F) -> Self {
+    pub(super) fn new(
+        pair: Pair<'a>,
+        clip: Bounds,
+        branches: Vec<Branch>,
+        found: F,
+        matters: &'a dyn Fn(DVec3) -> bool,
+    ) -> Self {
         Self {
             pair,
             clip,
             branches,
             found,
+            matters,
             undecided: 0,
             halvings: 0,
         }
@@ -105,7 +116,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             }
             if is_small {
                 if !self.land(a, b, |_| true) && !self.passes_by(a, b) {
-                    self.undecided += 1;
+                    let [u, v] = a.patch.middle();
+                    self.undecided += usize::from((self.matters)(a.patch.point(u, v)));
                 }
                 return;
             }
@@ -189,7 +201,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         match (self.found)(node) {
             Some(branch) => self.branches.push(branch),
             // A point of a curve that cannot be followed.
-            None => self.undecided += 1,
+            None => self.undecided += usize::from((self.matters)(node.point())),
         }
         true
     }
@@ -241,7 +253,7 @@ fn grow(low: f64, high: f64, by: f64) -> [f64; 2] {
 }
 
 /// About where a nearly flat patch is nearest to a point.
-fn nearest(patch: &Patch, point: glam::DVec3) -> [f64; 2] {
+fn nearest(patch: &Patch, point: DVec3) -> [f64; 2] {
     let [mut u, mut v] = patch.middle();
     for _ in 0..2 {
         let (p, pu, pv) = patch.first_jet(u, v);

@@ -390,7 +390,9 @@ impl Tracks {
                             }
                             close
                         });
-                    faults.triples += usize::from(!repaired && domain.holds(point));
+                    // Where sheets of hidden regions run along each other their curves may end.
+                    let is_missed = !repaired && domain.holds(point);
+                    faults.triples += usize::from(is_missed && regions.matter([a, b], point));
                 }
             }
         }
