@@ -202,6 +202,9 @@ fn text(loaded: &Loaded, lines: &[Line]) -> String {
             rejection.count, rejection.feature, rejection.reason
         );
     }
+    for decision in &loaded.realisation.decisions {
+        let _ = writeln!(out, "\nnote: {decision}");
+    }
     for note in &model.notes {
         let _ = writeln!(out, "\nnote: {}: {}", note.place, note.message);
     }
@@ -236,7 +239,8 @@ fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
         .iter()
         .map(|note| serde_json::json!({ "place": note.place.to_string(), "message": note.message }))
         .collect();
-    serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features, "notes": notes })
+    serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features,
+        "decisions": loaded.realisation.decisions, "notes": notes })
 }
 
 /// A surface in a few words.
