@@ -16,21 +16,12 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::horizon::{Horizon, HorizonError};
 use super::side::Side;
-use crate::nurbs::{KnotVector, RefineError, Surface};
+use crate::nurbs::{KnotVector, RefineError, Surface, quadrature};
 
 /// Samples along each side of the plan when base and top are compared.
 const SAMPLES: usize = 129;
 /// Parts that spans are cut into where the range of a sheet's height is bounded by its control points.
 const PARTS: u32 = 8;
-/// Nodes and weights of Gauss–Legendre quadrature with ten nodes on [−1, 1], the half with positive nodes.
-const GAUSS: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_4),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
-];
-
 /// Why a base and a top bound no domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtentError {
@@ -286,12 +277,7 @@ fn sheet_measures(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Measures, 
 
 /// The area of a patch.
 fn area(patch: &Surface) -> f64 {
-    let along = |(from, to): (f64, f64)| {
-        let half = (to - from) / 2.0;
-        GAUSS.into_iter().flat_map(move |(node, weight)| {
-            [-node, node].map(|node| (from + half * (1.0 + node), half * weight))
-        })
-    };
+    let along = |(from, to)| quadrature::between(quadrature::TEN, from, to);
     let (u, v) = (patch.knots_u().domain(), patch.knots_v().domain());
     let mut area = 0.0;
     for (u, wu) in along(u) {
