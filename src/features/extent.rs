@@ -16,6 +16,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::horizon::{Horizon, HorizonError};
 use super::side::Side;
+use super::thickness::{self, NoThickness};
 use crate::nurbs::{KnotVector, RefineError, Surface, quadrature};
 
 /// Samples along each side of the plan when base and top are compared.
@@ -43,20 +44,8 @@ pub enum ExtentError {
         high: f64,
     },
     /// The top is not above the base.
-    #[error(
-        "at x = {x:.1} m, y = {y:.1} m the top of the domain is at {top:.3} m, not above its base at {base:.3} m; \
-         lower the base or raise the top"
-    )]
-    TopBelowBase {
-        /// Easting (m).
-        x: f64,
-        /// Northing (m).
-        y: f64,
-        /// Elevation of the top there (m).
-        top: f64,
-        /// Elevation of the base there (m).
-        base: f64,
-    },
+    #[error("the top of the domain lies too low: {0}; lower the base or raise the top")]
+    TopBelowBase(NoThickness),
     /// A horizon has no sheet over the block.
     #[error(transparent)]
     Horizon(#[from] HorizonError),
@@ -114,7 +103,9 @@ impl Extent {
                 high: high.z,
             });
         }
-        check_order(low, high, base, top)?;
+        if let (Some(base), Some(top)) = (base, top) {
+            thickness::mean(base, top, [low, high], SAMPLES).map_err(ExtentError::TopBelowBase)?;
+        }
         let level = |horizon: Option<&Horizon>| horizon.and_then(Horizon::level);
         let mut extent = Self::block(
             low.with_z(level(base).unwrap_or(low.z)),
@@ -289,35 +280,6 @@ fn area(patch: &Surface) -> f64 {
     area
 }
 
-/// The top lies above the base all over the plan.
-fn check_order(
-    low: DVec3,
-    high: DVec3,
-    base: Option<&Horizon>,
-    top: Option<&Horizon>,
-) -> Result<(), ExtentError> {
-    let (Some(base), Some(top)) = (base, top) else {
-        return Ok(());
-    };
-    let steps = (SAMPLES - 1) as f64;
-    for i in 0..SAMPLES {
-        for j in 0..SAMPLES {
-            let part = DVec2::new(i as f64, j as f64) / steps;
-            let DVec2 { x, y } = low.xy() + (high - low).xy() * part;
-            let (below, above) = (base.height(x, y), top.height(x, y));
-            if !(above > below) {
-                return Err(ExtentError::TopBelowBase {
-                    x,
-                    y,
-                    top: above,
-                    base: below,
-                });
-            }
-        }
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 mod tests {
@@ -434,7 +396,7 @@ mod tests {
         let error = Extent::new(LOW, HIGH, Some(&bowl(-31.0)), None).unwrap_err();
         assert!(error.to_string().contains("reaches down to"), "{error}");
         let error = Extent::new(LOW, HIGH, Some(&flat), Some(&bowl(-10.5))).unwrap_err();
-        let ExtentError::TopBelowBase { x, y, top, base } = error else {
+        let ExtentError::TopBelowBase(NoThickness { x, y, top, base }) = error else {
             unreachable!("{error}");
         };
         assert!(base == -10.0 && top <= base);

@@ -352,7 +352,7 @@ fn numbers_that_make_no_clinoform_are_refused() {
     let (base, top) = (flat().base().clone(), flat().top().clone());
     assert!(matches!(
         ClinoformUnit::new(top, base, LOW, HIGH),
-        Err(FrameError::TopBelowBase { .. })
+        Err(FrameError::TopBelowBase(_))
     ));
     assert!(matches!(
         ClinoformFrame::new(HIGH, LOW, 0.0),
