@@ -13,9 +13,9 @@ mod assembled;
 
 use assembled::{Built, checked, source, without};
 use clinothem::assembly::{Engine, measure::Piece};
+use clinothem::model::Model;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::{Format, Model, Source};
 use glam::{DVec2, DVec3};
 
 fn built(model: Model) -> Built {
@@ -23,7 +23,7 @@ fn built(model: Model) -> Built {
 }
 
 fn from_text(text: &str) -> Model {
-    checked(&Source::from_text("set.toml", text, Format::Toml))
+    assembled::from_text(text, &[])
 }
 
 fn of_file(name: &str, seed: u64) -> Model {

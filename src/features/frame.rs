@@ -184,9 +184,9 @@ impl ClinoformUnit {
         let height =
             thickness::mean(&base, &top, [low, high], SAMPLES).map_err(FrameError::TopBelowBase)?;
         Ok(Self {
-            height,
             base,
             top,
+            height,
             lowest,
             highest,
         })
