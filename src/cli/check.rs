@@ -44,11 +44,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, args.json)?;
     let lines = resolve(&loaded.realisation.volumes, &loaded.realisation.rules);
     if args.json {
-        print::out(&json(&loaded, &lines).to_string());
+        print::out(&json(&loaded, &lines).to_string())
     } else {
-        print::out(text(&loaded, &lines).trim_end());
+        print::out(text(&loaded, &lines).trim_end())
     }
-    Ok(())
 }
 
 /// What each feature does to each older one, and to other instances of itself.
