@@ -16,7 +16,7 @@ pub(super) struct ModelArgs {
     /// Override a value of the model file: feature.channel.width=30, domain.z=[-80,0]; repeatable.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
-    /// Leave out a feature (channel) or a volume (channel-3; a clinothem, lower-2; a belt of it, lower-2/distal), with its
+    /// Leave out a feature (channel) or a volume (channel-3; a clinothem, shore/lower-2; a belt of it, shore/lower-2/distal), with its
     /// children; repeatable. What it would hold goes to what is older.
     #[arg(long, value_name = "ID", num_args = 1..)]
     pub(super) without: Vec<String>,
