@@ -395,6 +395,12 @@ mod tests {
         assert!(error.to_string().contains("reaches up to"), "{error}");
         let error = Extent::new(LOW, HIGH, Some(&bowl(-31.0)), None).unwrap_err();
         assert!(error.to_string().contains("reaches down to"), "{error}");
+        // On the block's own sides they are not inside of it.
+        let [floor, roof] = [LOW.z, HIGH.z].map(|z| Horizon::flat(z).unwrap());
+        let error = Extent::new(LOW, HIGH, Some(&floor), None).unwrap_err();
+        assert!(error.to_string().contains("down to -30.000"), "{error}");
+        let error = Extent::new(LOW, HIGH, None, Some(&roof)).unwrap_err();
+        assert!(error.to_string().contains("up to 5.000"), "{error}");
         let error = Extent::new(LOW, HIGH, Some(&flat), Some(&bowl(-10.5))).unwrap_err();
         let ExtentError::TopBelowBase(NoThickness { x, y, top, base }) = error else {
             unreachable!("{error}");

@@ -41,3 +41,37 @@ pub(super) fn mean(
     }
     Ok(sum / (samples * samples) as f64)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+    use super::*;
+
+    const PLAN: [DVec3; 2] = [
+        DVec3::new(100.0, -50.0, -30.0),
+        DVec3::new(500.0, 150.0, 0.0),
+    ];
+
+    #[test]
+    fn the_mean_thickness_between_planes_is_that_in_the_middle_of_the_plan() {
+        let base = Horizon::dipping(DVec3::new(0.0, 0.0, -20.0), 0.01, 0.4).unwrap();
+        let top = Horizon::dipping(DVec3::new(300.0, 50.0, -5.0), 0.02, 2.5).unwrap();
+        let wanted = -5.0 - base.height(300.0, 50.0);
+        let found = mean(&base, &top, PLAN, 33).unwrap();
+        assert!((found - wanted).abs() < 1e-10, "{found} {wanted}");
+    }
+
+    #[test]
+    fn horizons_that_touch_are_refused_with_the_place() {
+        let flat = |level: f64| Horizon::flat(level).unwrap();
+        let touch = mean(&flat(-10.0), &flat(-10.0), PLAN, 5).unwrap_err();
+        assert_eq!((touch.x, touch.y), (100.0, -50.0));
+        assert_eq!((touch.base, touch.top), (-10.0, -10.0));
+        // A plane that falls northwards meets the level where the plan ends, and only there.
+        let falling = Horizon::dipping(DVec3::new(0.0, 150.0, -10.0), 0.02, 0.0).unwrap();
+        let NoThickness { y, .. } = mean(&flat(-9.99), &falling, PLAN, 5).unwrap_err();
+        assert_eq!(y, 150.0);
+        assert!(mean(&flat(-10.01), &falling, PLAN, 5).is_ok());
+    }
+}
