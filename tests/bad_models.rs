@@ -269,7 +269,7 @@ const SHOREFACE_EDITS: &[Edit] = &[
     ("spacing = { uniform = [105, 390] }", "spacing = ▸0", &["the spacing of feature \"lower-set\" is 0"]),
     ("first = { uniform = [50, 60] }", "", &["feature \"lower-set\" has no `first`"]),
     ("first = { uniform = [50, 60] }", "first = ▸-5", &["the first of feature \"lower-set\" is -5"]),
-    ("exponent = 2.5", "exponent = ▸0", &["the exponent of feature \"lower-set\" is 0; it must be above 0"]),
+    ("exponent = 2.5", "exponent = ▸0.9", &["the exponent of feature \"lower-set\" is 0.9; it must be 1 (straight) or more"]),
     ("toe = 0.2", "toe = ▸-0.2", &["the toe of feature \"lower-set\" is -0.2; it must lie between 0 and 1"]),
     ("toe = 0.2", "toe = ▸{ uniform = [0.5, 1.5] }", &["the toe of feature \"lower-set\" can be as large as 1.5"]),
     ("sheets = 6", "sheets = ▸0", &["the number of sheets of feature \"lower-set\" is 0", "leave it out"]),

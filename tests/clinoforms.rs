@@ -13,9 +13,9 @@ mod assembled;
 
 use assembled::{Built, checked, source, without};
 use clinothem::assembly::{Engine, measure::Piece};
+use clinothem::model::Model;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::{Format, Model, Source};
 use glam::{DVec2, DVec3};
 
 fn built(model: Model) -> Built {
@@ -23,7 +23,7 @@ fn built(model: Model) -> Built {
 }
 
 fn from_text(text: &str) -> Model {
-    checked(&Source::from_text("set.toml", text, Format::Toml))
+    assembled::from_text(text, &[])
 }
 
 fn of_file(name: &str, seed: u64) -> Model {
@@ -110,27 +110,31 @@ fn by_formula(sheets: &[Sheet], azimuth: f64, low: DVec3, high: DVec3) -> Vec<f6
     sums
 }
 
+/// The four sheets of `SET` as they were drawn, and the block's corners.
+fn sheets(made: &Built, azimuth: f64) -> (Vec<Sheet>, DVec3, DVec3) {
+    let extent = made.owners.extent();
+    let (low, high) = (extent.low(), extent.high());
+    let dip = DVec2::new(azimuth.to_radians().sin(), azimuth.to_radians().cos());
+    let half = (high - low).truncate() / 2.0;
+    let up_dip = -(half.x * dip.x.abs() + half.y * dip.y.abs());
+    let mut origin = up_dip - TD;
+    let sheets = (1..=4).map(|k| {
+        origin += match k {
+            1 => drawn(made, "first"),
+            _ => drawn(made, &format!("spacing-{k}")),
+        };
+        let length = drawn(made, &format!("length-{k}"));
+        Sheet { origin, length }
+    });
+    (sheets.collect(), low, high)
+}
+
 #[test]
 fn clinothems_have_the_sizes_that_their_formula_gives_for_any_direction() {
     let mut landings = 0;
     for azimuth in [0.0_f64, 90.0, 137.0, 180.0, 270.0, 320.0] {
         let made = built(from_text(&SET.replace("AZIMUTH", &azimuth.to_string())));
-        let extent = made.owners.extent();
-        let (low, high) = (extent.low(), extent.high());
-        let dip = DVec2::new(azimuth.to_radians().sin(), azimuth.to_radians().cos());
-        let half = (high - low).truncate() / 2.0;
-        let up_dip = -(half.x * dip.x.abs() + half.y * dip.y.abs());
-        let mut origin = up_dip - TD;
-        let sheets: Vec<Sheet> = (1..=4)
-            .map(|k| {
-                origin += match k {
-                    1 => drawn(&made, "first"),
-                    _ => drawn(&made, &format!("spacing-{k}")),
-                };
-                let length = drawn(&made, &format!("length-{k}"));
-                Sheet { origin, length }
-            })
-            .collect();
+        let (sheets, low, high) = sheets(&made, azimuth);
         let toe = |sheet: &Sheet| sheet.origin + sheet.length;
         landings += sheets
             .windows(2)
@@ -155,8 +159,8 @@ fn clinothems_have_the_sizes_that_their_formula_gives_for_any_direction() {
     );
 }
 
-#[test]
-fn belts_change_at_their_widths_from_the_shoreline_of_the_younger_sheet() {
+/// Sheets 120 apart, the first one 130 from the west, each 400 long, with three belts.
+fn belts() -> String {
     let belts = r#"
 belts = [
   { name = "near", facies = "sand", width = 60 },
@@ -168,7 +172,12 @@ belts = [
         .replace("{ uniform = [40, 120] }", "120")
         .replace("{ uniform = [100, 150] }", "130")
         .replace("{ uniform = [150, 700] }", "400");
-    let made = built(from_text(&(text + belts)));
+    text + belts
+}
+
+#[test]
+fn belts_change_at_their_widths_from_the_shoreline_of_the_younger_sheet() {
+    let made = built(from_text(&belts()));
     // Eastwards: the shoreline's apex is at x = 130, in the middle of y; the sheets are 120 apart.
     for (clinothem, shoreline) in [(0, 130.0), (1, 250.0), (2, 370.0), (3, 490.0)] {
         for (width, belt, next) in [(60.0, "near", "middle"), (110.0, "middle", "far")] {
@@ -220,21 +229,130 @@ fn the_coastal_model_is_proven_in_full_and_its_plain_stays_below_its_parasequenc
 }
 
 #[test]
-fn sheets_flatter_than_can_be_told_apart_and_sets_without_their_top_are_refused() {
-    let refused = |model: &Model, ids: &[&str]| {
-        Realisation::new(model, &without(ids))
-            .unwrap_err()
-            .to_string()
-    };
+fn sheets_flatter_than_can_be_told_apart_are_refused() {
     let set = SET.replace("AZIMUTH", "90");
-    let flat = refused(&from_text(&(set.clone() + "exponent = 3\ntoe = 0")), &[]);
-    assert!(flat.contains("give a toe above 0"), "{flat}");
+    let flat = from_text(&(set.clone() + "exponent = 3\ntoe = 0"));
+    let flat = Realisation::new(&flat, &Selection::default()).unwrap_err();
+    assert!(flat.to_string().contains("give a toe above 0"), "{flat}");
     // Left out, the toe is not tangent then.
     let steeper = built(from_text(&(set + "exponent = 3")));
     assert!(steeper.assembly.failed.is_empty());
-    let topless = refused(&of_file("coastal", 7), &["flooding"]);
+}
+
+#[test]
+fn a_set_whose_top_takes_no_part_reaches_up_to_the_next_horizon_that_does() {
+    let horizon = |id: &str, level: f64| {
+        format!(
+            "[[feature]]\nid = \"{id}\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = {{ level = {level} }}\n"
+        )
+    };
+    let text = SET.replace("AZIMUTH", "137") + &horizon("lid", -9.0) + &horizon("roof", -4.0);
+    let named = text.replace("sheets = 4", "sheets = 4\ntop = \"lid\"");
+    let names = ["background", "set-1", "set-2", "set-3", "set-4"];
+    for (text, ids, top, words) in [
+        (&text, &[][..], -9.0, None),
+        (&text, &["roof"], -9.0, None),
+        (&text, &["lid"], -4.0, Some("up to roof: lid,")),
+        (&named, &["lid"], -4.0, Some("up to roof: lid,")),
+        (
+            &named,
+            &["roof", "lid"],
+            0.0,
+            Some("up to the domain's top: lid,"),
+        ),
+    ] {
+        let made = Built::new(from_text(text), &without(ids), Engine::Partition).unwrap();
+        assert!(made.assembly.failed.is_empty());
+        let (sheets, low, high) = sheets(&made, 137.0);
+        let high = high.with_z(top);
+        let wanted = by_formula(&sheets, 137.0_f64.to_radians(), low, high);
+        let block = (high - low).element_product();
+        for (name, wanted) in names.iter().zip(wanted) {
+            let size = made.size(name);
+            assert!(
+                (size - wanted).abs() < 5e-6 * block,
+                "{ids:?}: {name} is {size}, not {wanted}"
+            );
+        }
+        let told = made.realisation.decisions.join("\n");
+        assert!(
+            words.map_or(told.is_empty(), |words| told.contains(words)),
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn the_place_of_a_clinothem_that_is_left_out_goes_to_those_that_its_neighbours_sheets_bound() {
+    let text = SET.replace("AZIMUTH", "320");
+    let all = built(from_text(&text));
+    for left_out in 1..=4_usize {
+        let own = format!("set-{left_out}");
+        let made = Built::new(from_text(&text), &without(&[&own]), Engine::Partition).unwrap();
+        assert!(made.assembly.failed.is_empty());
+        assert_eq!(made.realisation.volume(&own), None);
+        let (mut sheets, low, high) = sheets(&all, 320.0);
+        sheets.remove(left_out - 1);
+        let wanted = by_formula(&sheets, 320.0_f64.to_radians(), low, high);
+        let mut names = vec!["background", "set-1", "set-2", "set-3", "set-4"];
+        names.remove(left_out);
+        for (name, wanted) in names.into_iter().zip(wanted) {
+            let size = made.size(name);
+            let block = (high - low).element_product();
+            assert!(
+                (size - wanted).abs() < 5e-6 * block,
+                "without {own}: {name} is {size}, not {wanted}"
+            );
+        }
+    }
+    let too_many = Realisation::new(&from_text(&text), &without(&["set-5"]));
+    let words = too_many.unwrap_err().to_string();
     assert!(
-        topless.contains("\"flooding\", which does not take part"),
-        "{topless}"
+        words.contains("`set-5`") && words.contains("its last clinothem is `set-4`"),
+        "{words}"
     );
+}
+
+#[test]
+fn the_place_of_a_belt_that_is_left_out_goes_to_the_belt_landward_of_it() {
+    let all = built(from_text(&belts()));
+    let made =
+        |name: &str| Built::new(from_text(&belts()), &without(&[name]), Engine::Partition).unwrap();
+    let size = |made: &Built, name: &str| {
+        let volume = made.realisation.volume(name);
+        volume.map_or(0.0, |volume| made.assembly.measured.size_of(volume))
+    };
+    let volumes = |made: &Built| -> Vec<String> {
+        let all = made.realisation.volumes.iter();
+        all.map(|one| one.name.clone()).collect()
+    };
+    let one = made("set-1/middle");
+    assert!(size(&all, "set-1/middle") > 1000.0);
+    for name in volumes(&all) {
+        let wanted = match name.as_str() {
+            "set-1/near" => size(&all, "set-1/near") + size(&all, "set-1/middle"),
+            "set-1/middle" => 0.0,
+            other => size(&all, other),
+        };
+        let own = size(&one, &name);
+        assert!(
+            (own - wanted).abs() < 1e-6 * wanted.max(1.0),
+            "{name}: {own} {wanted}"
+        );
+    }
+    // A whole clinothem goes to the older one; the oldest to the unit.
+    for (left_out, older) in [("set-2", "set-1"), ("set-0", "background")] {
+        let one = made(left_out);
+        let of = |made: &Built, clinothem: &str| -> f64 {
+            let names = volumes(made).into_iter();
+            let own = names
+                .filter(|name| name == clinothem || name.starts_with(&format!("{clinothem}/")));
+            own.map(|name| size(made, &name)).sum()
+        };
+        assert!(of(&all, left_out) > 1000.0);
+        assert_eq!(of(&one, left_out), 0.0);
+        let wanted = of(&all, left_out) + of(&all, older);
+        let own = of(&one, older);
+        assert!((own - wanted).abs() < 1e-9 * wanted, "{own} {wanted}");
+    }
 }

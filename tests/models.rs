@@ -9,35 +9,32 @@
     reason = "a test fails by panicking"
 )]
 
-use std::path::{Path, PathBuf};
+mod assembled;
+
+use std::path::PathBuf;
 use std::time::Duration;
 
-use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof, worker};
+use assembled::{checked, source};
+use clinothem::assembly::{Engine, Options, proof, worker};
 use clinothem::export::report::{Parts, Report};
-use clinothem::model::owner::Owners;
-use clinothem::model::plan::AssemblyPlan;
-use clinothem::model::realisation::Realisation;
+use clinothem::model::Stream;
 use clinothem::model::selection::Selection;
-use clinothem::model::{Model, Source, Stream};
 use glam::DVec3;
 
-struct Built {
-    model: Model,
-    realisation: Realisation,
-    owners: Owners,
-    plan: AssemblyPlan,
-    assembly: Assembly,
+/// With what is asked of rules.
+struct Built(assembled::Built);
+
+impl std::ops::Deref for Built {
+    type Target = assembled::Built;
+
+    fn deref(&self) -> &assembled::Built {
+        &self.0
+    }
 }
 
 impl Built {
-    fn new(path: &str) -> Self {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("models")
-            .join(path);
-        let model = Model::check(&Source::read(path).unwrap()).unwrap_or_else(|e| panic!("{e}"));
-        let realisation = Realisation::new(&model, &Selection::default()).unwrap();
-        let owners = Owners::new(&realisation).unwrap();
-        let plan = AssemblyPlan::new(&realisation).unwrap();
+    fn new(name: &str) -> Self {
+        let model = checked(&source(name));
         let options = Options {
             engine: Engine::Auto,
             child: Some(worker::Child {
@@ -48,15 +45,8 @@ impl Built {
             proof: proof::Level::Full,
             seed: model.seed,
         };
-        let assembly =
-            assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ()).unwrap();
-        let built = Self {
-            model,
-            realisation,
-            owners,
-            plan,
-            assembly,
-        };
+        let built = assembled::Built::with(model, &Selection::default(), &options);
+        let built = Self(built.unwrap());
         built.assert_proven();
         built
     }
@@ -87,27 +77,6 @@ impl Built {
             })
             .sum();
         assert!(compared >= 1000, "only {compared} points");
-    }
-
-    fn volume(&self, name: &str) -> usize {
-        self.realisation
-            .volume(name)
-            .unwrap_or_else(|| panic!("no volume {name}"))
-    }
-
-    fn size(&self, name: &str) -> f64 {
-        self.assembly.measured.size_of(self.volume(name))
-    }
-
-    fn solids(&self, name: &str) -> usize {
-        self.assembly.measured.pieces_of(self.volume(name)).len()
-    }
-
-    /// Area shared by two volumes (m²).
-    fn contact(&self, a: &str, b: &str) -> f64 {
-        let (a, b) = (self.volume(a), self.volume(b));
-        let contact = self.assembly.measured.contacts.get(&(a.min(b), a.max(b)));
-        contact.copied().unwrap_or(0.0)
     }
 
     /// Compares the solids with a rule that takes which volumes' shells hold a point, oldest first, and
@@ -155,7 +124,7 @@ fn oldest_first(inside: &[&str], may_take: impl Fn(&str, &str) -> bool) -> Strin
 
 #[test]
 fn bodies_take_only_what_their_list_admits() {
-    let built = Built::new("rules/removes.toml");
+    let built = Built::new("rules/removes");
     built.assert_rule(|inside| {
         oldest_first(inside, |body, holder| match (body, holder) {
             ("south" | "north", _) | ("by-id", "south" | "background") => true,
@@ -168,9 +137,9 @@ fn bodies_take_only_what_their_list_admits() {
         })
     });
     // A plug is one piece, a plug in both channels is two, and what runs through the plain crosses it.
-    assert_eq!(built.solids("by-level"), 1);
-    assert_eq!(built.solids("by-facies"), 1);
-    assert_eq!(built.solids("by-kind"), 2);
+    assert_eq!(built.pieces("by-level"), 1);
+    assert_eq!(built.pieces("by-facies"), 1);
+    assert_eq!(built.pieces("by-kind"), 2);
     assert!(built.contact("by-level", "south") == 0.0);
     assert!(built.contact("by-facies", "north") == 0.0);
     assert!(built.contact("by-id", "north") > 0.0);
@@ -178,7 +147,7 @@ fn bodies_take_only_what_their_list_admits() {
 
 #[test]
 fn protected_bodies_stay_whole_and_preserving_ones_take_only_the_plain() {
-    let built = Built::new("rules/protected.toml");
+    let built = Built::new("rules/protected");
     built.assert_rule(|inside| {
         oldest_first(inside, |body, holder| match (body, holder) {
             // Nothing removes it once it is there.
@@ -189,15 +158,15 @@ fn protected_bodies_stay_whole_and_preserving_ones_take_only_the_plain() {
         })
     });
     // `cemented` passes under and through everything in one piece; it cuts `timid` and `cutter` in two.
-    assert_eq!(built.solids("cemented"), 1);
-    assert!(built.solids("timid") > 1);
+    assert_eq!(built.pieces("cemented"), 1);
+    assert!(built.pieces("timid") > 1);
     assert!(built.contact("timid", "picky") > 0.0);
     assert!(built.contact("cutter", "picky") > 0.0);
 }
 
 #[test]
 fn children_stay_in_their_parents_and_younger_features_cut_all_of_them() {
-    let built = Built::new("rules/nested.toml");
+    let built = Built::new("rules/nested");
     built.assert_rule(|inside| {
         oldest_first(inside, |body, holder| match body.rsplit_once('/') {
             // A child takes from its parent and from whatever is in it.
@@ -238,7 +207,7 @@ fn children_stay_in_their_parents_and_younger_features_cut_all_of_them() {
 
 #[test]
 fn what_is_drawn_lies_where_its_distribution_allows() {
-    let built = Built::new("rules/distributions.toml");
+    let built = Built::new("rules/distributions");
     built.assert_rule(|inside| oldest_first(inside, |_, _| true));
     let report = built.report();
     for (feature, key, low, high) in [
@@ -277,7 +246,7 @@ fn what_is_drawn_lies_where_its_distribution_allows() {
 
 #[test]
 fn tops_that_lie_exactly_on_the_domains_top_and_on_each_other_are_faces_there() {
-    let built = Built::new("flush-tops/flush-tops.toml");
+    let built = Built::new("flush-tops/flush-tops");
     built.assert_rule(|inside| oldest_first(inside, |_, _| true));
     // At the surface the channels' tops are parts of the domain's skin: 60 m wide and 400 m / cos long.
     let outer = &built.assembly.measured.outer;
@@ -286,13 +255,13 @@ fn tops_that_lie_exactly_on_the_domains_top_and_on_each_other_are_faces_there() 
     assert!(both > 60.0 * length, "{both}");
     // No mud lies between the buried tops: each is level with the other and touches the other's bank only.
     assert!(built.contact("buried-old", "buried-young") > 0.0);
-    assert_eq!(built.solids("background"), 1);
+    assert_eq!(built.pieces("background"), 1);
     assert!(!built.plan.decisions.is_empty());
 }
 
 #[test]
 fn channels_that_wander_widen_overhang_and_end_are_assembled() {
-    let built = Built::new("wandering/wandering.toml");
+    let built = Built::new("wandering/wandering");
     built.assert_rule(|inside| oldest_first(inside, |_, _| true));
     // The abandoned channel ends inside: between its end and the western wall there is only mud or younger.
     let abandoned = built.volume("abandoned");
@@ -320,7 +289,7 @@ fn channels_that_wander_widen_overhang_and_end_are_assembled() {
 #[test]
 fn nodules_are_whole_where_nothing_may_remove_them() {
     use std::f64::consts::PI;
-    let built = Built::new("nodules/nodules.toml");
+    let built = Built::new("nodules/nodules");
     built.assert_rule(|inside| {
         oldest_first(inside, |body, holder| match body.rsplit_once('/') {
             // A nodule of a channel grew in its sand …
@@ -348,7 +317,7 @@ fn nodules_are_whole_where_nothing_may_remove_them() {
             (size - expected).abs() < 1e-6 * expected,
             "{name}: {size} {expected}"
         );
-        assert_eq!(built.solids(name), 1, "{name}");
+        assert_eq!(built.pieces(name), 1, "{name}");
     };
     assert_eq!(contacts("whole"), ["channel-2"]);
     assert_size("whole", whole(12.0, 6.0, 2.0));
@@ -372,6 +341,6 @@ fn nodules_are_whole_where_nothing_may_remove_them() {
 
 #[test]
 fn the_quickstart_is_what_its_rules_say() {
-    let built = Built::new("quickstart/quickstart.toml");
+    let built = Built::new("quickstart/quickstart");
     built.assert_rule(|inside| oldest_first(inside, |_, _| true));
 }

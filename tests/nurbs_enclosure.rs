@@ -5,12 +5,16 @@
     reason = "a test fails by panicking"
 )]
 
+#[path = "shapes/surfaces.rs"]
+mod surfaces;
+
 use clinothem::nurbs::enclosure::{Enclosure, EnclosureError, Side};
 use clinothem::nurbs::interpolate;
 use clinothem::nurbs::{Curve, KnotVector, Surface};
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
-use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+use std::f64::consts::TAU;
+use surfaces::{circle, cuboid, mapped, moved, revolved};
 
 /// A fixed sequence of points in a box, spread evenly (the R3 sequence of the plastic number's cousin).
 fn scattered(count: usize, low: DVec3, high: DVec3) -> impl Iterator<Item = DVec3> {
@@ -19,90 +23,21 @@ fn scattered(count: usize, low: DVec3, high: DVec3) -> impl Iterator<Item = DVec
     (1..=count).map(move |k| low + (high - low) * (0.5 + step * k as f64).fract())
 }
 
-const QUARTERS: [f64; 12] = [
-    0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
-];
-const CORNERS: [(f64, f64); 9] = [
-    (1.0, 0.0),
-    (1.0, 1.0),
-    (0.0, 1.0),
-    (-1.0, 1.0),
-    (-1.0, 0.0),
-    (-1.0, -1.0),
-    (0.0, -1.0),
-    (1.0, -1.0),
-    (1.0, 0.0),
-];
-
-/// The surface of revolution about z of a rational quadratic profile (distance from the axis, height, weight).
-fn revolved(
-    profile: &[(f64, f64, f64)],
-    profile_knots: Vec<f64>,
-    place: impl Fn(DVec3) -> DVec3,
-) -> Surface {
-    let (mut net, mut weights) = (Vec::new(), Vec::new());
-    for (k, &(x, y)) in CORNERS.iter().enumerate() {
-        for &(r, z, w) in profile {
-            net.push(place(DVec3::new(r * x, r * y, z)));
-            weights.push(w * if k % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 });
-        }
-    }
-    let u = KnotVector::new(2, QUARTERS.to_vec()).unwrap();
-    let v = KnotVector::new(2, profile_knots).unwrap();
-    Surface::rational(u, v, net, weights).unwrap()
-}
-
 fn sphere(place: impl Fn(DVec3) -> DVec3) -> Surface {
-    let c = FRAC_1_SQRT_2;
-    let profile = [
-        (0.0, -1.0, 1.0),
-        (1.0, -1.0, c),
-        (1.0, 0.0, 1.0),
-        (1.0, 1.0, c),
-        (0.0, 1.0, 1.0),
-    ];
-    revolved(
-        &profile,
-        vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0],
-        place,
-    )
+    mapped(&[surfaces::sphere()], place).remove(0)
 }
 
 fn torus(major: f64, minor: f64) -> Surface {
-    let profile: Vec<_> = CORNERS
-        .iter()
-        .enumerate()
-        .map(|(k, &(x, z))| {
-            (
-                major + minor * x,
-                minor * z,
-                if k % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 },
-            )
-        })
+    let round = circle();
+    let points = round.points().iter().zip(round.weights());
+    let profile: Vec<_> = points
+        .map(|(p, w)| (major + minor * p.x, minor * p.y, *w))
         .collect();
-    revolved(&profile, QUARTERS.to_vec(), |p| p)
-}
-
-fn plane(corners: [DVec3; 4]) -> Surface {
-    let line = || KnotVector::uniform(1, 2).unwrap();
-    Surface::new(line(), line(), corners.to_vec()).unwrap()
+    revolved(&profile, round.knots().as_slice().to_vec())
 }
 
 fn box_shell(size: DVec3, place: impl Fn(DVec3) -> DVec3) -> Vec<Surface> {
-    let corner = |k: usize| {
-        let bit = |b: usize| if k & (1 << b) == 0 { 0.0 } else { 1.0 };
-        place(DVec3::new(bit(0), bit(1), bit(2)) * size)
-    };
-    [
-        [0, 1, 2, 3],
-        [4, 5, 6, 7],
-        [0, 1, 4, 5],
-        [2, 3, 6, 7],
-        [0, 2, 4, 6],
-        [1, 3, 5, 7],
-    ]
-    .map(|face| plane(face.map(corner)))
-    .to_vec()
+    mapped(&cuboid(DVec3::ZERO, size), place)
 }
 
 #[test]
@@ -285,11 +220,12 @@ fn channels_with_and_without_overhanging_banks_agree_with_the_winding_number_of_
 #[test]
 fn an_open_shell_is_refused_with_its_open_side() {
     let mut surfaces = box_shell(DVec3::ONE, |p| p);
+    // The face on top goes; u runs upwards on the first one.
     surfaces.pop();
     let Err(EnclosureError::Open { surface, side, .. }) = Enclosure::new(surfaces) else {
         panic!("an open box is no shell")
     };
-    assert_eq!((surface, side), (0, Side::VEnd));
+    assert_eq!((surface, side), (0, Side::UEnd));
 }
 
 #[test]
@@ -357,20 +293,15 @@ fn a_tunnel_of_elliptic_section_holds_what_is_within_its_ellipse() {
     let (a, b, length) = (12.0, 5.0, 80.0);
     let turn = DMat3::from_euler(glam::EulerRot::ZYX, 0.6, 0.05, 0.0);
     let place = |s: f64, x: f64, z: f64| turn * DVec3::new(length * s, a * x, b * z);
-    let (mut net, mut weights) = (Vec::new(), Vec::new());
-    for (k, &(x, z)) in CORNERS.iter().enumerate() {
-        net.extend([place(0.0, x, z), place(1.0, x, z)]);
-        weights.extend([if k % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 }; 2]);
-    }
-    let u = KnotVector::new(2, QUARTERS.to_vec()).unwrap();
-    let wall = Surface::rational(u, KnotVector::uniform(1, 2).unwrap(), net, weights).unwrap();
+    let [start, end] = [0.0, 1.0].map(|s| moved(&circle(), |p| place(s, p.x, p.y)));
+    let wall = Surface::ruled(&start, &end).unwrap();
     let caps = [0.0, 1.0].map(|s| {
         let centre = Curve::new(
             KnotVector::uniform(1, 2).unwrap(),
             vec![place(s, 0.0, 0.0); 2],
         )
         .unwrap();
-        Surface::ruled(&wall.isocurve_v(s), &centre).unwrap()
+        Surface::ruled(&wall.isocurve_u(s), &centre).unwrap()
     });
     let [first, last] = caps;
     let shell = Enclosure::new(vec![wall, first, last]).unwrap();

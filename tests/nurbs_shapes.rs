@@ -1,57 +1,22 @@
 //! Curves and surfaces against closed forms: circle, parabola, sphere, and the net of J19 Fig. 3.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+#[path = "shapes/surfaces.rs"]
+mod surfaces;
+
 use clinothem::nurbs::interpolate::{self, Parametrization};
 use clinothem::nurbs::{Curve, KnotVector, Surface};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// The circle of radius r about the z axis: four rational quadratic quarters.
+/// The circle of radius r about the z axis.
 fn circle(r: f64) -> Curve {
-    let corner = [
-        (1, 0),
-        (1, 1),
-        (0, 1),
-        (-1, 1),
-        (-1, 0),
-        (-1, -1),
-        (0, -1),
-        (1, -1),
-        (1, 0),
-    ];
-    let points = corner
-        .iter()
-        .map(|&(x, y)| r * DVec3::new(f64::from(x), f64::from(y), 0.0))
-        .collect();
-    let weights = (0..9)
-        .map(|i| if i % 2 == 0 { 1.0 } else { FRAC_1_SQRT_2 })
-        .collect();
-    let knots = vec![
-        0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
-    ];
-    Curve::rational(KnotVector::new(2, knots).unwrap(), points, weights).unwrap()
+    surfaces::moved(&surfaces::circle(), |p| r * p)
 }
 
-/// The sphere about the origin: the circle's weights times those of a half circle from pole to pole.
+/// The sphere of radius r about the origin.
 fn sphere(r: f64) -> Surface {
-    let c = FRAC_1_SQRT_2;
-    let profile = [
-        (0.0, -1.0, 1.0),
-        (1.0, -1.0, c),
-        (1.0, 0.0, 1.0),
-        (1.0, 1.0, c),
-        (0.0, 1.0, 1.0),
-    ];
-    let round = circle(1.0);
-    let (mut net, mut weights) = (Vec::new(), Vec::new());
-    for (p, w) in round.points().iter().zip(round.weights()) {
-        for (across, z, own) in profile {
-            net.push(r * DVec3::new(across * p.x, across * p.y, z));
-            weights.push(w * own);
-        }
-    }
-    let v = KnotVector::new(2, vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0]).unwrap();
-    Surface::rational(round.knots().clone(), v, net, weights).unwrap()
+    surfaces::mapped(&[surfaces::sphere()], |p| r * p).remove(0)
 }
 
 fn fig3(degree: usize) -> Surface {

@@ -5,26 +5,22 @@
     reason = "a test fails by panicking"
 )]
 
+#[path = "assembled/checked.rs"]
+mod checked;
+
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use checked::{from_text as model, without};
 use clinothem::features::body::Body;
 use clinothem::model::owner::Owners;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::{Distribution, FeatureKind, Format, Model, Quantity, Source};
+use clinothem::model::{Distribution, FeatureKind, Quantity};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-fn model(text: &str, overrides: &[String]) -> Model {
-    let mut source = Source::from_text("test.toml", text, Format::Toml);
-    for one in overrides {
-        source.set(one.clone());
-    }
-    Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
-}
-
-fn realise(text: &str, overrides: &[String]) -> Realisation {
+fn realise(text: &str, overrides: &[&str]) -> Realisation {
     Realisation::new(&model(text, overrides), &Selection::default()).unwrap()
 }
 
@@ -50,7 +46,7 @@ fn instances(realisation: &Realisation) -> BTreeMap<String, Drawn> {
 #[test]
 fn a_longer_list_or_another_order_of_features_changes_no_draw() {
     let twenty = instances(&realise(BELT, &[]));
-    let thirty = instances(&realise(BELT, &["feature.channel.count=30".to_owned()]));
+    let thirty = instances(&realise(BELT, &["feature.channel.count=30"]));
     assert_eq!((twenty.len(), thirty.len()), (20, 30));
     for (name, one) in &twenty {
         assert_eq!(thirty[name], *one, "{name}");
@@ -77,7 +73,7 @@ fn a_longer_list_or_another_order_of_features_changes_no_draw() {
 #[test]
 fn fixing_one_quantity_changes_no_other_draw() {
     let free = realise(BELT, &[]);
-    let fixed = realise(BELT, &["feature.channel.width=40".to_owned()]);
+    let fixed = realise(BELT, &["feature.channel.width=40"]);
     for (a, b) in free.instances.iter().zip(&fixed.instances) {
         // Rejections depend on the width, and another attempt is another draw.
         if a.rejected > 0 || b.rejected > 0 {
@@ -170,10 +166,10 @@ fn draws_of_table_1_are_rejected_as_often_as_theory_says() {
     let realisation = realise(
         BELT,
         &[
-            format!("feature.channel.count={count}"),
+            &format!("feature.channel.count={count}"),
             // Positions and tops say nothing about bends; a small block makes short channels.
-            "domain.x=[0,400]".to_owned(),
-            "domain.y=[0,400]".to_owned(),
+            "domain.x=[0,400]",
+            "domain.y=[0,400]",
         ],
     );
     let mut counts: BTreeMap<&str, u32> = BTreeMap::new();
@@ -264,11 +260,7 @@ fn children_without_a_center_are_spread_over_what_their_parent_has_of_the_domain
     let model = model(&text, &[]);
     let realisation = Realisation::new(&model, &Selection::default()).unwrap();
     // Only the parent's shell is asked for: those of 2000 ellipsoids would take long.
-    let alone = Selection {
-        without: vec!["nodule".to_owned()],
-        ..Selection::default()
-    };
-    let alone = Realisation::new(&model, &alone).unwrap();
+    let alone = Realisation::new(&model, &without(&["nodule"])).unwrap();
     assert_eq!(alone.instances[0].drawn, realisation.instances[0].drawn);
     let owners = Owners::new(&alone).unwrap();
     let found = ellipsoids(&realisation);
@@ -322,7 +314,7 @@ fn ellipsoids_do_not_depend_on_order_or_threads() {
     };
     let found = on(1);
     assert_eq!(found, on(5));
-    let more = instances(&realise(&text, &["feature.nodule.count=30".to_owned()]));
+    let more = instances(&realise(&text, &["feature.nodule.count=30"]));
     for (name, one) in &found {
         assert_eq!(more[name], *one, "{name}");
     }

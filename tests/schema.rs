@@ -6,7 +6,10 @@
     reason = "a test fails by panicking"
 )]
 
-use clinothem::model::{Format, Model, Source, schema};
+#[path = "assembled/checked.rs"]
+mod checked;
+
+use clinothem::model::{Model, schema};
 use serde_json::Value;
 
 const GOOD: &str = include_str!("bad_models/good.toml");
@@ -23,8 +26,7 @@ fn as_json(toml: &str) -> Value {
 }
 
 fn check(text: &str) -> Model {
-    let source = Source::from_text("model.toml", text, Format::Toml);
-    Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
+    checked::from_text(text, &[])
 }
 
 #[test]

@@ -17,9 +17,11 @@ use std::collections::BTreeMap;
 use assembled::{checked, source, without};
 use clinothem::assembly::Engine;
 use clinothem::features::horizon::Horizon;
+use clinothem::model::owner::Owners;
+use clinothem::model::plan::AssemblyPlan;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::{FeatureKind, HorizonSurface, Model};
+use clinothem::model::{FeatureKind, HorizonSurface, Model, Quantity};
 use glam::{DVec2, DVec3};
 
 fn model(name: &str, overrides: &[&str]) -> Model {
@@ -54,6 +56,14 @@ impl Built {
             .filter(|name| name.starts_with(start))
             .map(|name| self.size(name))
             .sum()
+    }
+
+    /// What the plan decided.
+    fn decided(&self) -> String {
+        AssemblyPlan::new(&self.realisation)
+            .unwrap()
+            .decisions
+            .join("\n")
     }
 
     fn owner(&self, x: f64, y: f64, z: f64) -> Option<&str> {
@@ -306,4 +316,121 @@ fn parasequences_fill_the_units_between_undulating_horizons() {
         assert_eq!(solids.iter().filter(|one| one.size > 5000.0).count(), large);
         assert!(large >= 10, "{large}");
     }
+}
+
+/// The model `bounds` with other surfaces for its horizons.
+fn with_surfaces(surfaces: &[(&str, HorizonSurface)]) -> Built {
+    let mut model = model("bounds", &[]);
+    for (id, surface) in surfaces {
+        let feature = model.features.iter_mut().find(|one| one.id == *id).unwrap();
+        match &mut feature.kind {
+            FeatureKind::Horizon(spec) => spec.surface = surface.clone(),
+            _ => panic!("{id} is no horizon"),
+        }
+    }
+    Built(assembled::Built::new(model, &Selection::default(), Engine::Partition).unwrap())
+}
+
+#[test]
+fn a_horizon_on_the_domains_own_base_has_all_above_it_and_one_on_its_top_nothing() {
+    let whole = build("bounds", &[], &[]);
+    let [floor, roof] =
+        [&whole.model.domain.base, &whole.model.domain.top].map(|surface| surface.clone().unwrap());
+    // The same plane through another of its points.
+    let HorizonSurface::Dipping {
+        dip_deg,
+        azimuth_deg,
+        ..
+    } = floor.clone()
+    else {
+        panic!("no plane");
+    };
+    let elsewhere = HorizonSurface::Dipping {
+        through: [350.0, 17.0, base(350.0, 17.0)].map(Quantity::Constant),
+        dip_deg,
+        azimuth_deg,
+    };
+    for on_floor in [floor, elsewhere] {
+        let made = with_surfaces(&[("incised", on_floor)]);
+        assert!(made.assembly.failed.is_empty());
+        assert_eq!(made.pieces("background"), 0);
+        let top = grid(&roof);
+        let above = made.over_plan(|x, y| top.height(x, y) - lapping(x, y).max(base(x, y)));
+        let channel = made.size("channel");
+        let held = made.size("incised") + made.size("onlapping") + channel;
+        assert_near(held, made.realisation.extent.volume(), 1e-9);
+        assert!(made.size("onlapping") > above - channel - 1.0);
+        assert!(made.size("onlapping") < above);
+        let told = made.decided();
+        assert!(told.contains("incised lies on the domain's base"), "{told}");
+    }
+    let made = with_surfaces(&[("onlapping", roof)]);
+    assert!(made.assembly.failed.is_empty());
+    assert_eq!(made.pieces("onlapping"), 0);
+    let without = build("bounds", &[], &["onlapping"]);
+    for name in ["background", "incised", "channel"] {
+        assert_near(made.size(name), without.size(name), 1e-12);
+    }
+    let told = made.decided();
+    assert!(
+        told.contains("onlapping lies on the domain's top"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_level_horizon_on_a_level_base_or_top_of_the_domain_is_decided_too() {
+    let made = build(
+        "bounds",
+        &[
+            "domain.base={ level = -42 }",
+            "domain.top={ level = -2 }",
+            "feature.incised.surface={ level = -42 }",
+            "feature.onlapping.surface={ level = -2 }",
+        ],
+        &["channel"],
+    );
+    assert_near(made.size("incised"), 400.0 * 600.0 * 40.0, 1e-12);
+    assert_eq!(
+        ["background", "onlapping"].map(|name| made.pieces(name)),
+        [0; 2]
+    );
+}
+
+#[test]
+fn what_is_drawn_for_the_domains_base_and_top_is_told_and_is_what_bounds_it() {
+    let overrides = [
+        "domain.base.dipping.dip_deg={ uniform = [0.5, 1.5] }",
+        "domain.base.dipping.through=[200, 300, { uniform = [-40, -36] }]",
+        "domain.top={ level = { uniform = [-9, -3] } }",
+    ];
+    let mut seen = Vec::new();
+    for seed in [1, 2] {
+        let mut model = model("bounds", &overrides);
+        model.seed = seed;
+        let realisation = Realisation::new(&model, &Selection::default()).unwrap();
+        let names: Vec<&str> = realisation.drawn.iter().map(|one| one.0.as_str()).collect();
+        assert_eq!(
+            names,
+            [
+                "base.dipping.through.z",
+                "base.dipping.dip_deg",
+                "top.level"
+            ]
+        );
+        let [z, dip, top] = [0, 1, 2].map(|at| realisation.drawn[at].1);
+        assert!((0.5..1.5).contains(&dip) && (-40.0..-36.0).contains(&z));
+        // The plane goes through the middle of the plan.
+        assert_near(
+            realisation.extent.volume(),
+            400.0 * 600.0 * (top - z),
+            1e-12,
+        );
+        let owners = Owners::new(&realisation).unwrap();
+        let floor = z - 190.0 * dip.to_radians().tan();
+        let at = |z: f64| owners.at(DVec3::new(390.0, 100.0, z));
+        assert!(at(floor - 1e-6).is_none() && at(floor + 1e-6).is_some());
+        seen.push([z, dip, top]);
+    }
+    assert!(seen[0].iter().zip(seen[1]).all(|(a, b)| *a != b));
 }

@@ -15,8 +15,6 @@ std::unique_ptr<ShapeHandle> handle(const TopoDS_Shape& shape) {
   return std::make_unique<ShapeHandle>(shape);
 }
 
-std::unique_ptr<ShapeHandle> copy_shape(const ShapeHandle& shape) { return handle(shape.shape); }
-
 std::unique_ptr<ShapeList> new_list() { return std::make_unique<ShapeList>(); }
 
 std::unique_ptr<ShapeHandle> compound_of(const ShapeList& list) {

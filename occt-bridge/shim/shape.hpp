@@ -28,7 +28,6 @@ struct ShapeList {
 };
 
 std::unique_ptr<ShapeHandle> handle(const TopoDS_Shape& shape);
-std::unique_ptr<ShapeHandle> copy_shape(const ShapeHandle& shape);
 std::unique_ptr<ShapeList> new_list();
 std::unique_ptr<ShapeHandle> compound_of(const ShapeList& list);
 rust::String kind_of(const ShapeHandle& shape);

@@ -265,7 +265,6 @@ pub(crate) mod bridge {
 
         fn kernel_version() -> Result<String>;
         fn use_threads(count: usize) -> Result<()>;
-        fn copy_shape(shape: &ShapeHandle) -> Result<UniquePtr<ShapeHandle>>;
         fn kind_of(shape: &ShapeHandle) -> Result<String>;
         fn count_of(shape: &ShapeHandle, kind: u8) -> Result<usize>;
         fn new_list() -> Result<UniquePtr<ShapeList>>;

@@ -1,6 +1,7 @@
 //! A handle to a shape that the kernel holds.
 
 use std::fmt;
+use std::sync::Arc;
 
 use cxx::UniquePtr;
 
@@ -10,9 +11,10 @@ use crate::ffi::bridge;
 
 const MAGIC: [u8; 8] = *b"CLNSHP01";
 
-/// A shape. Clones share the same geometry; nothing in this crate changes a shape after it was made.
+/// A shape. Clones share it; nothing in this crate changes a shape after it was made.
+#[derive(Clone)]
 pub struct Shape {
-    handle: UniquePtr<bridge::ShapeHandle>,
+    handle: Arc<UniquePtr<bridge::ShapeHandle>>,
 }
 
 /// What a [`Shape`] is.
@@ -38,7 +40,9 @@ pub enum ShapeKind {
 
 impl Shape {
     pub(crate) fn new(handle: UniquePtr<bridge::ShapeHandle>) -> Self {
-        Self { handle }
+        Self {
+            handle: Arc::new(handle),
+        }
     }
 
     pub(crate) fn handle(&self) -> &bridge::ShapeHandle {
@@ -99,19 +103,6 @@ impl Shape {
             }
         };
         bridge::count_of(&self.handle, code).map_err(|e| from_kernel("counting sub-shapes", &e))
-    }
-}
-
-impl Clone for Shape {
-    #[allow(
-        clippy::panic,
-        reason = "copying a handle only counts a reference; Clone cannot return an error"
-    )]
-    fn clone(&self) -> Self {
-        match bridge::copy_shape(&self.handle) {
-            Ok(handle) => Self { handle },
-            Err(error) => panic!("a shape's handle could not be copied: {error}"),
-        }
     }
 }
 

@@ -10,6 +10,7 @@ mod bodies;
 
 use std::f64::consts::PI;
 
+use bodies::measured;
 use bodies::tables::{add_grid, ball_in_box, drilled_block, grid, solid, turned};
 use occt_bridge::{
     BridgeError, Classifier, Curve, MeshOptions, OnSurface, Pcurve, Position, ShapeKind, Solids,
@@ -19,22 +20,7 @@ use occt_bridge::{
 
 fn volumes(solids: &Solids) -> Vec<f64> {
     let integrals = face_integrals(solids, 1e-10, [0.3, 0.1, 0.2], Threads::One).unwrap();
-    solids
-        .solids()
-        .iter()
-        .map(|s| {
-            s.faces
-                .iter()
-                .map(|(f, reversed)| {
-                    if *reversed {
-                        -integrals[*f].flux
-                    } else {
-                        integrals[*f].flux
-                    }
-                })
-                .sum()
-        })
-        .collect()
+    measured::volumes(solids, &integrals)
 }
 
 fn assert_sound(solids: &Solids, exact: &[f64]) {

@@ -6,22 +6,15 @@
     reason = "tests"
 )]
 
+mod bodies;
+
 use std::time::{Duration, Instant};
 
+use bodies::measured::{self, cut, youngest_in_first};
 use occt_bridge::{
-    BridgeError, Cancel, Partition, PartitionOptions, Shape, Solids, Threads, box_solid, defects,
+    BridgeError, Cancel, PartitionOptions, Shape, Solids, Threads, box_solid, defects,
     face_integrals, partition, volume,
 };
-
-fn cut(arguments: &[Shape]) -> Partition {
-    partition(
-        arguments,
-        &PartitionOptions::default(),
-        &Cancel::new(),
-        &|_| (),
-    )
-    .unwrap()
-}
 
 /// Two boxes of 8 m³ that overlap in 1 m³.
 fn crossing_boxes() -> Vec<Shape> {
@@ -31,33 +24,9 @@ fn crossing_boxes() -> Vec<Shape> {
     ]
 }
 
-/// Youngest argument wins; cells outside argument 0 go.
-fn youngest_in_first(partition: &Partition) -> Vec<Option<usize>> {
-    partition
-        .cells()
-        .iter()
-        .map(|c| c.inside.contains(&0).then(|| *c.inside.last().unwrap()))
-        .collect()
-}
-
 fn volumes(solids: &Solids) -> Vec<f64> {
     let integrals = face_integrals(solids, 1e-9, [0.3, 0.1, -0.2], Threads::All).unwrap();
-    solids
-        .solids()
-        .iter()
-        .map(|s| {
-            s.faces
-                .iter()
-                .map(|(f, reversed)| {
-                    if *reversed {
-                        -integrals[*f].flux
-                    } else {
-                        integrals[*f].flux
-                    }
-                })
-                .sum()
-        })
-        .collect()
+    measured::volumes(solids, &integrals)
 }
 
 #[test]

@@ -12,57 +12,17 @@ use std::f64::consts::PI;
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
+use bodies::measured::{self, close, cut, volumes};
 use bodies::{Course, cylinder_topology, ellipsoid_topology};
 use occt_bridge::{
-    BridgeError, Cancel, Classifier, FaceIntegral, MeshOptions, Partition, PartitionOptions,
-    Position, Shape, Solids, Threads, area, bounds, box_solid, defects, face_integrals,
-    face_samples, partition, set_threads, solid, triangulate, triangulate_solids, volume,
+    BridgeError, Cancel, Classifier, MeshOptions, Partition, PartitionOptions, Position, Shape,
+    Solids, Threads, area, bounds, box_solid, defects, face_integrals, face_samples, partition,
+    set_threads, solid, triangulate, triangulate_solids, volume,
 };
 
-fn cut(arguments: &[Shape]) -> Partition {
-    partition(
-        arguments,
-        &PartitionOptions::default(),
-        &Cancel::new(),
-        &|_| (),
-    )
-    .unwrap()
-}
-
 fn youngest_in_first(partition: &Partition) -> Solids {
-    let owner: Vec<_> = partition
-        .cells()
-        .iter()
-        .map(|c| c.inside.contains(&0).then(|| *c.inside.last().unwrap()))
-        .collect();
-    partition.merge(&owner).unwrap()
-}
-
-fn volumes(solids: &Solids, integrals: &[FaceIntegral]) -> Vec<f64> {
-    solids
-        .solids()
-        .iter()
-        .map(|s| {
-            s.faces
-                .iter()
-                .map(|(f, reversed)| {
-                    if *reversed {
-                        -integrals[*f].flux
-                    } else {
-                        integrals[*f].flux
-                    }
-                })
-                .sum()
-        })
-        .collect()
-}
-
-fn close(found: f64, exact: f64, relative: f64) {
-    assert!(
-        (found / exact - 1.0).abs() < relative,
-        "{found} for {exact}: {:e}",
-        found / exact - 1.0
-    );
+    let owners = measured::youngest_in_first(partition);
+    partition.merge(&owners).unwrap()
 }
 
 /// Volume of one owner, its solids summed.

@@ -11,6 +11,7 @@ mod bodies;
 
 use std::f64::consts::PI;
 
+use bodies::measured::close;
 use bodies::{Course, cylinder_topology, ellipsoid_topology};
 use occt_bridge::{
     BridgeError, Curve, Pcurve, ShapeKind, Solids, Surface, Threads, Topology, area, bounds,
@@ -33,14 +34,6 @@ const CHANNEL: Course = Course {
 
 /// On rational surfaces the integrator's own estimate is up to six times too small: asked for 1e-9 it reaches 6e-9.
 const RATIONAL: f64 = 1e-11;
-
-fn close(found: f64, exact: f64, relative: f64) {
-    assert!(
-        (found / exact - 1.0).abs() < relative,
-        "{found} for {exact}: {:e}",
-        found / exact - 1.0
-    );
-}
 
 #[test]
 fn a_box_has_its_volume_area_bounds_and_faces_in_the_documented_order() {

@@ -11,16 +11,17 @@ pub(super) struct ModelArgs {
     #[arg(value_name = "MODEL")]
     pub(super) model: PathBuf,
     /// Draw with this seed instead of the model's.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) seed: Option<u64>,
     /// Override a value of the model file: feature.channel.width=30, domain.z=[-80,0]; repeatable.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
-    /// Leave out a feature (channel) or a volume (channel-3), with its children; repeatable.
+    /// Leave out a feature (channel) or a volume (channel-3; a clinothem, shore/lower-2; a belt of it, shore/lower-2/distal), with its
+    /// children; repeatable. What it would hold goes to what is older.
     #[arg(long, value_name = "ID", num_args = 1..)]
     pub(super) without: Vec<String>,
     /// Leave out levels deeper than this (1 = largest).
-    #[arg(long, value_name = "LEVEL")]
+    #[arg(long, value_name = "LEVEL", allow_negative_numbers = true)]
     pub(super) max_level: Option<u32>,
 }
 
@@ -41,6 +42,9 @@ impl ModelArgs {
     }
 }
 
+/// The largest number, as in model files.
+const LARGEST: f64 = 1e9;
+
 /// Reads `1,2` or `1,2,3` as numbers.
 pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
@@ -50,16 +54,21 @@ pub(super) fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
         .map(|part| part.parse().map_err(|_| wrong()))
         .collect::<Result<_, _>>()?;
     let values: [f64; N] = values.try_into().map_err(|_| wrong())?;
-    if values.iter().all(|value: &f64| value.is_finite()) {
-        Ok(values)
-    } else {
-        Err(wrong())
+    if !values.iter().all(|value: &f64| value.is_finite()) {
+        return Err(wrong());
+    }
+    match values.iter().find(|value| value.abs() > LARGEST) {
+        Some(value) => Err(format!(
+            "the number {value:e} is beyond {LARGEST:e}; lengths are in metres, check the digits"
+        )),
+        None => Ok(values),
     }
 }
 
 /// Reads a finite number.
 pub(super) fn finite(text: &str) -> Result<f64, String> {
-    numbers::<1>(text)
-        .map(|[value]| value)
-        .map_err(|_| format!("`{text}` is not a finite number"))
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => numbers::<1>(text).map(|[value]| value),
+        _ => Err(format!("`{text}` is not a finite number")),
+    }
 }

@@ -55,10 +55,10 @@ pub(super) struct EngineArgs {
     #[arg(long, value_enum, default_value_t)]
     proof: ProofLevel,
     /// Worker threads; all of the machine's if not given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Stop a general fuse that takes longer (s).
-    #[arg(long, value_name = "SECONDS", default_value_t = 1800, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, default_value_t = 1800, value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
     /// No progress bars and no summary.
     #[arg(long)]
@@ -167,11 +167,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let json = report
             .to_json()
             .map_err(|error| Failure::Surroundings(error.to_string()))?;
-        print::out(json.trim_end());
-    } else if !args.engine.quiet {
-        print::out(summary::text(&report, &folder, &written).trim_end());
+        print::out(json.trim_end())
+    } else if args.engine.quiet {
+        Ok(())
+    } else {
+        print::out(summary::text(&report, &folder, &written).trim_end())
     }
-    Ok(())
 }
 
 /// Plans, assembles and proves.
@@ -284,9 +285,10 @@ impl Output<'_> {
                 std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
                 names.push(RUN.to_owned());
                 for name in &names {
-                    let from = staging.path().join(name);
-                    file::readable(&from).map_err(failed)?;
-                    std::fs::rename(from, self.folder.join(name)).map_err(failed)?;
+                    let (from, to) = (staging.path().join(name), self.folder.join(name));
+                    file::readable(&from)
+                        .and_then(|()| std::fs::rename(from, &to))
+                        .map_err(|error| Failure::file("write", &to, &error))?;
                 }
                 Ok(names)
             });

@@ -44,11 +44,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, args.json)?;
     let lines = resolve(&loaded.realisation.volumes, &loaded.realisation.rules);
     if args.json {
-        print::out(&json(&loaded, &lines).to_string());
+        print::out(&json(&loaded, &lines).to_string())
     } else {
-        print::out(text(&loaded, &lines).trim_end());
+        print::out(text(&loaded, &lines).trim_end())
     }
-    Ok(())
 }
 
 /// What each feature does to each older one, and to other instances of itself.
@@ -202,6 +201,9 @@ fn text(loaded: &Loaded, lines: &[Line]) -> String {
             rejection.count, rejection.feature, rejection.reason
         );
     }
+    for decision in &loaded.realisation.decisions {
+        let _ = writeln!(out, "\nnote: {decision}");
+    }
     for note in &model.notes {
         let _ = writeln!(out, "\nnote: {}: {}", note.place, note.message);
     }
@@ -236,7 +238,8 @@ fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
         .iter()
         .map(|note| serde_json::json!({ "place": note.place.to_string(), "message": note.message }))
         .collect();
-    serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features, "notes": notes })
+    serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features,
+        "decisions": loaded.realisation.decisions, "notes": notes })
 }
 
 /// A surface in a few words.

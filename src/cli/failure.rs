@@ -33,10 +33,9 @@ impl Failure {
         let (code, text) = match self {
             Self::Wrong(text) => (1, format!("error: {text}")),
             Self::WrongModel { text, json } => {
-                if let Some(json) = json {
-                    print::out(&json);
-                }
-                (1, text)
+                let unprinted = json.and_then(|json| print::out(&json).err());
+                print::err(text.trim_end());
+                return unprinted.map_or(ExitCode::from(1), Self::report);
             }
             Self::Unproven(text) => (2, format!("error: {text}")),
             Self::Surroundings(text) => (3, format!("error: {text}")),

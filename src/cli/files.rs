@@ -7,5 +7,26 @@ use crate::export::file;
 
 /// Writes a file that is whole or not there.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    folder_of(path)?;
     file::write(path, [bytes]).map_err(|error| Failure::file("write", path, &error))
+}
+
+/// The folder that a file is to be written to; it must be there.
+pub(super) fn folder_of(path: &Path) -> Result<&Path, Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let problem = if folder.is_dir() {
+        return Ok(folder);
+    } else if folder.exists() {
+        "is not a folder; name another place"
+    } else {
+        "does not exist; make that folder, or name another place"
+    };
+    Err(Failure::Surroundings(format!(
+        "cannot write {}: {} {problem}",
+        path.display(),
+        folder.display()
+    )))
 }

@@ -25,7 +25,7 @@ pub(super) struct Args {
     #[arg(value_parser = finite, allow_negative_numbers = true)]
     z: f64,
     /// How near a face counts as on it (m).
-    #[arg(long, value_parser = finite, default_value = "1e-6")]
+    #[arg(long, value_parser = finite, allow_negative_numbers = true, default_value = "1e-6")]
     tolerance: f64,
     /// Print JSON.
     #[arg(long)]
@@ -71,24 +71,23 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "boundary_of": boundary,
             "history": history,
         });
-        print::out(&answer.to_string());
-        return Ok(());
+        return print::out(&answer.to_string());
     }
     let facies = &volumes[location.owner].facies;
-    print::out(&format!("{} ({facies})", name(location.owner)));
+    let mut lines = vec![format!("{} ({facies})", name(location.owner))];
     if !location.boundary.is_empty() {
         let names: Vec<&str> = location
             .boundary
             .iter()
             .map(|volume| name(*volume))
             .collect();
-        print::out(&format!("on the boundary of {}", names.join(" and ")));
+        lines.push(format!("on the boundary of {}", names.join(" and ")));
     }
     if !location.history.is_empty() {
-        print::out(&format!("starting from {}:", name(0)));
+        lines.push(format!("starting from {}:", name(0)));
     }
     for (volume, verdict) in &location.history {
-        print::out(&format!("  {} {}", name(*volume), verdict.reason()));
+        lines.push(format!("  {} {}", name(*volume), verdict.reason()));
     }
-    Ok(())
+    print::out(&lines.join("\n"))
 }

@@ -28,6 +28,7 @@ mod surfaces;
 #[cfg(feature = "occt")]
 mod view;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -79,9 +80,13 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version are answers; everything else is a wrong argument, which is 1 here and 2
-            // in clap. A closed output is nobody's loss.
-            drop(error.print());
-            return ExitCode::from(u8::from(error.use_stderr()));
+            // in clap.
+            let printed = error.print();
+            if error.use_stderr() {
+                return ExitCode::from(1);
+            }
+            let flushed = printed.and_then(|()| std::io::stdout().flush());
+            return print::told(flushed).map_or_else(Failure::report, |()| ExitCode::SUCCESS);
         }
     };
     match cli.command.run() {

@@ -26,10 +26,9 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let Some(name) = &args.template else {
-        for template in &TEMPLATES {
-            print::out(&format!("{:14} {}", template.name, template.about));
-        }
-        return Ok(());
+        let line = |one: &Template| format!("{:14} {}", one.name, one.about);
+        let lines: Vec<String> = TEMPLATES.iter().map(line).collect();
+        return print::out(&lines.join("\n"));
     };
     let Some(template) = Template::find(name) else {
         let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
@@ -50,6 +49,5 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     files::write(&path, template.text.as_bytes())?;
     let shown = path.display();
-    print::out(&format!("wrote {shown}; next: clinothem build {shown}"));
-    Ok(())
+    print::out(&format!("wrote {shown}; next: clinothem build {shown}"))
 }

@@ -61,6 +61,5 @@ pub(super) fn refused(error: &PictureError) -> Failure {
 /// Writes a picture and says so.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     files::write(path, bytes)?;
-    super::print::out(&format!("wrote {}", path.display()));
-    Ok(())
+    super::print::out(&format!("wrote {}", path.display()))
 }

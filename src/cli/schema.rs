@@ -30,6 +30,5 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let text = serde_json::to_string_pretty(&schema)
         .map_err(|error| Failure::Surroundings(error.to_string()))?;
-    print::out(&text);
-    Ok(())
+    print::out(&text)
 }

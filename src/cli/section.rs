@@ -40,13 +40,18 @@ pub(super) struct Args {
     #[arg(long, value_name = "Z", value_parser = finite, conflicts_with = "from", allow_negative_numbers = true)]
     map: Option<f64>,
     /// How many times elevations are stretched; chosen to fit if not given.
-    #[arg(long, value_name = "TIMES", value_parser = finite)]
+    #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true)]
     exaggeration: Option<f64>,
     /// Where to write; the name's ending, .png or .svg, decides the format.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Width of a PNG in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600)]
+    #[arg(
+        long,
+        value_name = "PIXELS",
+        default_value_t = 1600,
+        allow_negative_numbers = true
+    )]
     width: u32,
 }
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::args::ModelArgs;
 use super::build::Schema;
 use super::failure::Failure;
+use super::files;
 use super::{interrupt, load, print};
 use crate::export::{file, step};
 
@@ -34,12 +35,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .output
         .clone()
         .unwrap_or_else(|| PathBuf::from(format!("{}-surfaces.step", args.model.stem())));
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
     let staging = tempfile::Builder::new()
         .prefix(".clinothem-")
-        .tempdir_in(folder.unwrap_or(std::path::Path::new(".")))
+        .tempdir_in(files::folder_of(&path)?)
         .map_err(|error| Failure::file("write", &path, &error))?;
     // The handler removes the folder when the program is stopped; there is nothing to cancel here.
     let _cancel = interrupt::cancel()?;
@@ -60,6 +58,5 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     print::out(&format!(
         "wrote {}: the surfaces of {count} bodies",
         path.display()
-    ));
-    Ok(())
+    ))
 }

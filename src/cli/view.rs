@@ -39,7 +39,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DEGREES", value_parser = finite, allow_negative_numbers = true, conflicts_with = "below")]
     elevation_deg: Option<f64>,
     /// How many times elevations are stretched.
-    #[arg(long, value_name = "TIMES", value_parser = finite, default_value = "5")]
+    #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true, default_value = "5")]
     exaggeration: f64,
     /// Cut away the corner nearest to the eye, to this easting and northing (m).
     #[arg(long, value_name = "X,Y", value_parser = numbers::<2>, allow_hyphen_values = true)]
@@ -51,7 +51,7 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Width and height in pixels.
-    #[arg(long, value_name = "WIDTH,HEIGHT", value_parser = pixels, default_value = "1600,1000")]
+    #[arg(long, value_name = "WIDTH,HEIGHT", value_parser = pixels, allow_hyphen_values = true, default_value = "1600,1000")]
     size: [u32; 2],
     #[command(flatten)]
     engine: EngineArgs,

@@ -92,6 +92,42 @@ fn a_boundary_without_wander_lies_on_the_younger_sheet_at_its_distance_and_past_
 }
 
 #[test]
+fn where_a_boundary_wanders_landward_of_the_shoreline_it_lies_on_the_top() {
+    let case = case(320.0, 0.0);
+    let reach = case.frame.reach();
+    let wander = Wander::Zigzag(nodes(reach, alternating));
+    let boundary = FaciesBoundary::new(&design(10.0, 80.0, wander), &case.younger, &case.unit);
+    let boundary = boundary.unwrap();
+    for (k, [q, value]) in nodes(reach, alternating).into_iter().enumerate() {
+        // Landward by 10 − 40 m: there the unit's top, at −1 m, is what the boundary starts from.
+        let distance = 10.0 + 80.0 * value;
+        let z = if value < 0.0 {
+            -1.0
+        } else {
+            on_younger(&case, distance, q)
+        };
+        let off = boundary.d(q, z) - case.younger.d_top(q) - distance;
+        assert!(off.abs() < 2e-3, "node {k}: {off}");
+    }
+}
+
+#[test]
+fn a_leg_that_the_strikes_cut_off_keeps_its_direction() {
+    let case = case(320.0, 0.0);
+    let reach = case.frame.reach();
+    let nodes = vec![[-1.5, -0.5], [-0.5, 0.5], [0.5, -0.5], [1.5, 0.5]];
+    let nodes: Vec<[f64; 2]> = nodes.into_iter().map(|[q, x]| [q * reach, x]).collect();
+    let design = design(100.0, 60.0, Wander::Zigzag(nodes));
+    let boundary = FaciesBoundary::new(&design, &case.younger, &case.unit).unwrap();
+    // At both ends of the strikes its first and its last leg are half way from side to side.
+    for q in [-reach, reach] {
+        let z = on_younger(&case, 100.0, q);
+        let off = boundary.d(q, z) - case.younger.d_top(q) - 100.0;
+        assert!(off.abs() < 2e-3, "{q}: {off}");
+    }
+}
+
+#[test]
 fn a_boundary_holds_what_is_basinward_of_its_sheets_to_a_nanometre() {
     for azimuth in AZIMUTHS {
         let case = case(azimuth, 0.3);

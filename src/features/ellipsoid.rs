@@ -166,6 +166,7 @@ mod tests {
 
     use super::{Ellipsoid, EllipsoidDesign, EllipsoidError};
     use crate::nurbs::enclosure::Enclosure;
+    use crate::nurbs::quadrature;
 
     /// Axes of 30, 12 and 5 m, the first towards N 50° E and 20° down.
     const TILTED: EllipsoidDesign = EllipsoidDesign {
@@ -245,19 +246,10 @@ mod tests {
 
     /// The flux of (p − centre)/3 through the surface, by Gauss's rule of 8 points on n pieces each way.
     fn volume(ellipsoid: &Ellipsoid, pieces: usize) -> f64 {
-        const GAUSS: [(f64, f64); 4] = [
-            (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-            (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-            (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-            (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-        ];
         let nodes: Vec<(f64, f64)> = (0..pieces)
             .flat_map(|k| {
-                let width = 1.0 / pieces as f64;
-                let at = move |x: f64| width * (k as f64 + 0.5 + 0.5 * x);
-                GAUSS
-                    .into_iter()
-                    .flat_map(move |(x, w)| [(at(x), 0.5 * width * w), (at(-x), 0.5 * width * w)])
+                let at = |k: usize| k as f64 / pieces as f64;
+                quadrature::between(quadrature::EIGHT, at(k), at(k + 1))
             })
             .collect();
         let mut sum = 0.0;

@@ -16,21 +16,13 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::horizon::{Horizon, HorizonError};
 use super::side::Side;
-use crate::nurbs::{KnotVector, RefineError, Surface};
+use super::thickness::{self, NoThickness};
+use crate::nurbs::{KnotVector, RefineError, Surface, quadrature};
 
 /// Samples along each side of the plan when base and top are compared.
 const SAMPLES: usize = 129;
 /// Parts that spans are cut into where the range of a sheet's height is bounded by its control points.
 const PARTS: u32 = 8;
-/// Nodes and weights of Gauss–Legendre quadrature with ten nodes on [−1, 1], the half with positive nodes.
-const GAUSS: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_4),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
-];
-
 /// Why a base and a top bound no domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtentError {
@@ -52,20 +44,8 @@ pub enum ExtentError {
         high: f64,
     },
     /// The top is not above the base.
-    #[error(
-        "at x = {x:.1} m, y = {y:.1} m the top of the domain is at {top:.3} m, not above its base at {base:.3} m; \
-         lower the base or raise the top"
-    )]
-    TopBelowBase {
-        /// Easting (m).
-        x: f64,
-        /// Northing (m).
-        y: f64,
-        /// Elevation of the top there (m).
-        top: f64,
-        /// Elevation of the base there (m).
-        base: f64,
-    },
+    #[error("the top of the domain lies too low: {0}; lower the base or raise the top")]
+    TopBelowBase(NoThickness),
     /// A horizon has no sheet over the block.
     #[error(transparent)]
     Horizon(#[from] HorizonError),
@@ -123,7 +103,9 @@ impl Extent {
                 high: high.z,
             });
         }
-        check_order(low, high, base, top)?;
+        if let (Some(base), Some(top)) = (base, top) {
+            thickness::mean(base, top, [low, high], SAMPLES).map_err(ExtentError::TopBelowBase)?;
+        }
         let level = |horizon: Option<&Horizon>| horizon.and_then(Horizon::level);
         let mut extent = Self::block(
             low.with_z(level(base).unwrap_or(low.z)),
@@ -286,12 +268,7 @@ fn sheet_measures(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Measures, 
 
 /// The area of a patch.
 fn area(patch: &Surface) -> f64 {
-    let along = |(from, to): (f64, f64)| {
-        let half = (to - from) / 2.0;
-        GAUSS.into_iter().flat_map(move |(node, weight)| {
-            [-node, node].map(|node| (from + half * (1.0 + node), half * weight))
-        })
-    };
+    let along = |(from, to)| quadrature::between(quadrature::TEN, from, to);
     let (u, v) = (patch.knots_u().domain(), patch.knots_v().domain());
     let mut area = 0.0;
     for (u, wu) in along(u) {
@@ -301,35 +278,6 @@ fn area(patch: &Surface) -> f64 {
         }
     }
     area
-}
-
-/// The top lies above the base all over the plan.
-fn check_order(
-    low: DVec3,
-    high: DVec3,
-    base: Option<&Horizon>,
-    top: Option<&Horizon>,
-) -> Result<(), ExtentError> {
-    let (Some(base), Some(top)) = (base, top) else {
-        return Ok(());
-    };
-    let steps = (SAMPLES - 1) as f64;
-    for i in 0..SAMPLES {
-        for j in 0..SAMPLES {
-            let part = DVec2::new(i as f64, j as f64) / steps;
-            let DVec2 { x, y } = low.xy() + (high - low).xy() * part;
-            let (below, above) = (base.height(x, y), top.height(x, y));
-            if !(above > below) {
-                return Err(ExtentError::TopBelowBase {
-                    x,
-                    y,
-                    top: above,
-                    base: below,
-                });
-            }
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -447,8 +395,14 @@ mod tests {
         assert!(error.to_string().contains("reaches up to"), "{error}");
         let error = Extent::new(LOW, HIGH, Some(&bowl(-31.0)), None).unwrap_err();
         assert!(error.to_string().contains("reaches down to"), "{error}");
+        // On the block's own sides they are not inside of it.
+        let [floor, roof] = [LOW.z, HIGH.z].map(|z| Horizon::flat(z).unwrap());
+        let error = Extent::new(LOW, HIGH, Some(&floor), None).unwrap_err();
+        assert!(error.to_string().contains("down to -30.000"), "{error}");
+        let error = Extent::new(LOW, HIGH, None, Some(&roof)).unwrap_err();
+        assert!(error.to_string().contains("up to 5.000"), "{error}");
         let error = Extent::new(LOW, HIGH, Some(&flat), Some(&bowl(-10.5))).unwrap_err();
-        let ExtentError::TopBelowBase { x, y, top, base } = error else {
+        let ExtentError::TopBelowBase(NoThickness { x, y, top, base }) = error else {
             unreachable!("{error}");
         };
         assert!(base == -10.0 && top <= base);

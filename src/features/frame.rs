@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::horizon::{Horizon, HorizonError};
+use super::thickness::{self, NoThickness};
 use super::trajectory::azimuth_vector;
 
 /// How far the common strikes reach beyond the domain, as a fraction of its half extent along strike.
@@ -32,19 +33,9 @@ pub enum FrameError {
     },
     /// The top is not above the base.
     #[error(
-        "at x = {x:.1} m, y = {y:.1} m the unit's top is at {top:.3} m, not above its base at {base:.3} m; the horizons \
-         of a clinoform set must not meet inside the domain"
+        "the top of the unit lies too low: {0}; the horizons of a clinoform set must not meet inside the domain"
     )]
-    TopBelowBase {
-        /// Easting (m).
-        x: f64,
-        /// Northing (m).
-        y: f64,
-        /// Elevation of the top there (m).
-        top: f64,
-        /// Elevation of the base there (m).
-        base: f64,
-    },
+    TopBelowBase(NoThickness),
     /// A horizon has no bounds over the domain.
     #[error(transparent)]
     Horizon(#[from] HorizonError),
@@ -190,28 +181,12 @@ impl ClinoformUnit {
     pub fn new(base: Horizon, top: Horizon, low: DVec3, high: DVec3) -> Result<Self, FrameError> {
         let (lowest, _) = base.range(low, high)?;
         let (_, highest) = top.range(low, high)?;
-        let steps = (SAMPLES - 1) as f64;
-        let mut sum = 0.0;
-        for i in 0..SAMPLES {
-            for j in 0..SAMPLES {
-                let part = DVec2::new(i as f64 / steps, j as f64 / steps);
-                let DVec2 { x, y } = low.xy() + (high - low).xy() * part;
-                let (below, above) = (base.height(x, y), top.height(x, y));
-                if !(above > below) {
-                    return Err(FrameError::TopBelowBase {
-                        x,
-                        y,
-                        top: above,
-                        base: below,
-                    });
-                }
-                sum += above - below;
-            }
-        }
+        let height =
+            thickness::mean(&base, &top, [low, high], SAMPLES).map_err(FrameError::TopBelowBase)?;
         Ok(Self {
-            height: sum / (SAMPLES * SAMPLES) as f64,
             base,
             top,
+            height,
             lowest,
             highest,
         })

@@ -8,7 +8,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::trajectory::{GAUSS, Place, Trajectory, TrajectoryError, azimuth_vector};
+use super::trajectory::{Place, Trajectory, TrajectoryError, azimuth_vector};
+use crate::nurbs::quadrature::FIVE_ON_UNIT;
 
 /// Largest sensible ω: meanders touch near 125°.
 const LARGEST_OMEGA: f64 = 125.0 / 180.0 * PI;
@@ -171,7 +172,7 @@ impl Meander {
 
     /// Displacement over part of a turn, by quadrature of the direction.
     fn advance(omega: f64, arc: f64, from: f64, part: f64) -> DVec2 {
-        let sum: DVec2 = GAUSS
+        let sum: DVec2 = FIVE_ON_UNIT
             .iter()
             .map(|(x, w)| DVec2::from_angle(omega * (TAU * (from + part * x)).sin()) * *w)
             .sum();

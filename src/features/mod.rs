@@ -16,4 +16,5 @@ pub mod meander;
 pub mod profile;
 pub mod section;
 pub mod side;
+pub mod thickness;
 pub mod trajectory;

@@ -56,6 +56,20 @@ impl Side {
         points_bounds(self.sheets().iter().flat_map(Surface::net))
     }
 
+    /// Whether this and another one are the same: two horizons that run within a tolerance of each other (m), with sheets of
+    /// one shape; or exactly alike.
+    pub fn is_at(&self, other: &Self, tolerance: f64) -> bool {
+        match (self, other) {
+            (Self::Horizon(one), Self::Horizon(other)) => {
+                let knots = |sheet: &Surface| (sheet.knots_u().clone(), sheet.knots_v().clone());
+                let mut pairs = one.sheet.net().iter().zip(other.sheet.net());
+                knots(&one.sheet) == knots(&other.sheet)
+                    && pairs.all(|(a, b)| (*a - *b).abs().max_element() <= tolerance)
+            }
+            _ => self == other,
+        }
+    }
+
     /// The elevation of a level horizon (m).
     pub fn level(&self) -> Option<f64> {
         match self {

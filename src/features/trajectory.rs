@@ -10,20 +10,12 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use glam::DVec2;
 
 use crate::nurbs::interpolate::{self, Parametrization};
+use crate::nurbs::quadrature::FIVE_ON_UNIT;
 
 /// Samples in one span of an interpolated curve.
 const SAMPLES_PER_SPAN: usize = 32;
 /// Samples of a parametric curve.
 const PARAMETRIC_SAMPLES: usize = 2048;
-/// Abscissae and weights of 5-point Gauss–Legendre quadrature on 0..1.
-pub(super) const GAUSS: [(f64, f64); 5] = [
-    (0.046_910_077_030_668_0, 0.118_463_442_528_094_5),
-    (0.230_765_344_947_158_5, 0.239_314_335_249_683_2),
-    (0.5, 0.284_444_444_444_444_4),
-    (0.769_234_655_052_841_5, 0.239_314_335_249_683_2),
-    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
-];
-
 /// One exactly known place on a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
@@ -194,7 +186,7 @@ impl Trajectory {
             if i > 0 {
                 let from = parameters[i - 1];
                 s += (t - from)
-                    * GAUSS
+                    * FIVE_ON_UNIT
                         .iter()
                         .map(|(x, w)| w * motion(from + (t - from) * x)[1].length())
                         .sum::<f64>();

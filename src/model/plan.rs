@@ -2,7 +2,8 @@
 //!
 //! Coincidences that no kernel resolves reliably are decided here, by what the model means:
 //!
-//! - a body that does not reach into the domain takes no part;
+//! - a body that does not reach into the domain takes no part; nor does a horizon on the domain's top, while one on the
+//!   domain's base holds all of the domain;
 //! - bodies with the same shell (a feature repeated without any draw) share one;
 //! - *level tops that coincide*, with the domain's top or with each other, are marked as flush, so that
 //!   the kernel is given one plane for all of them, or, as a remedy, no coincident faces at all: the
@@ -10,6 +11,7 @@
 //!   the raised shell and below the lid; every contact is a crossing at an angle, and nothing changes
 //!   inside the bodies. The domain's own top serves as lid for bodies that reach it.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -91,6 +93,12 @@ pub struct PlanError {
     pub source: TroughError,
 }
 
+/// An instance as far as it takes part.
+struct Reaching<'a> {
+    volume: usize,
+    body: Cow<'a, Body>,
+}
+
 /// How a body's level top is handled.
 #[derive(Clone, Copy, PartialEq)]
 enum Top {
@@ -118,32 +126,32 @@ impl AssemblyPlan {
             shells: Vec::new(),
             lids: Vec::new(),
             bodies: Vec::new(),
-            decisions: Vec::new(),
+            decisions: realisation.decisions.clone(),
         };
-        let reaching: Vec<&Instance> = realisation
+        let reaching: Vec<Reaching<'_>> = realisation
             .instances
             .iter()
-            .filter(|instance| plan.reaches_domain(&instance.body, instance.volume))
+            .filter_map(|instance| plan.reaching(instance))
             .collect();
         let tops = plan.tops(&reaching);
-        let mut known: Vec<(&Body, Top, usize)> = Vec::new();
-        for (instance, &top) in reaching.iter().zip(&tops) {
-            let same =
-                |(body, other, _): &&(&Body, Top, usize)| *other == top && **body == instance.body;
-            let shell = if let Some(&(_, _, shell)) = known.iter().find(same) {
-                plan.note(format!(
-                    "{} has the shell of an older body",
-                    plan.names[instance.volume]
-                ));
+        let mut known: Vec<(Top, usize)> = Vec::new();
+        for (reaching, &top) in reaching.iter().zip(&tops) {
+            let volume = reaching.volume;
+            let same = |(other, shell): &&(Top, usize)| {
+                *other == top && plan.are_one(&plan.shells[*shell].body, &reaching.body)
+            };
+            let shell = if let Some(&(_, shell)) = known.iter().find(same) {
+                let name = &plan.names[volume];
+                plan.note(format!("{name} has the shell of an older body"));
                 shell
             } else {
-                let shell = plan.add_shell(instance, top)?;
-                known.push((&instance.body, top, shell));
+                let shell = plan.add_shell(reaching, top)?;
+                known.push((top, shell));
                 shell
             };
             let below = plan.cover(top);
             plan.bodies.push(PlannedBody {
-                volume: instance.volume,
+                volume,
                 shell,
                 below,
             });
@@ -183,20 +191,61 @@ impl AssemblyPlan {
         self.decisions.push(decision);
     }
 
-    /// Whether a body's box meets the inside of the domain.
-    fn reaches_domain(&mut self, body: &Body, volume: usize) -> bool {
-        let (low, high) = body.bounds();
-        let reaches = low.cmplt(self.high()).all() && high.cmpgt(self.low()).all();
-        if !reaches {
-            self.note(format!("{} lies outside the domain", self.names[volume]));
+    /// Two elevations nearer to each other than this (m) are the same.
+    fn same_level(&self) -> f64 {
+        SAME_LEVEL * (self.high() - self.low()).max_element()
+    }
+
+    /// What an instance holds of the domain; `None`, with a note, if it takes no part.
+    fn reaching<'a>(&mut self, instance: &'a Instance) -> Option<Reaching<'a>> {
+        let name = &self.names[instance.volume];
+        let mut body = Cow::Borrowed(&instance.body);
+        if let Body::Side(side) = &instance.body {
+            if self.is_at_bound(side, true) {
+                self.note(format!(
+                    "{name} lies on the domain's top: nothing is above it"
+                ));
+                return None;
+            }
+            if self.is_at_bound(side, false) {
+                self.note(format!(
+                    "{name} lies on the domain's base: all of the domain is above it"
+                ));
+                body = Cow::Owned(Body::Side(Side::Everywhere.into()));
+            }
         }
-        reaches
+        let (low, high) = body.bounds();
+        if !(low.cmplt(self.high()).all() && high.cmpgt(self.low()).all()) {
+            let name = &self.names[instance.volume];
+            self.note(format!("{name} lies outside the domain"));
+            return None;
+        }
+        Some(Reaching {
+            volume: instance.volume,
+            body,
+        })
+    }
+
+    /// Whether a side is that of the horizon that bounds the domain above or below.
+    fn is_at_bound(&self, side: &Side, is_top: bool) -> bool {
+        let same = self.same_level();
+        let at = if is_top { self.high() } else { self.low() }.z;
+        let is_level = side.level().is_some_and(|level| (level - at).abs() <= same);
+        let bound = &self.extent.bounds()[usize::from(is_top)];
+        is_level || bound.as_ref().is_some_and(|one| one.is_at(side, same))
+    }
+
+    /// Whether two bodies hold the same: a feature repeated without any draw, or two horizons at one place.
+    fn are_one(&self, one: &Body, other: &Body) -> bool {
+        match (one, other) {
+            (Body::Side(one), Body::Side(other)) => one.is_at(other, self.same_level()),
+            _ => one == other,
+        }
     }
 
     /// Which bodies end at the domain's top or under a common lid.
-    fn tops(&mut self, bodies: &[&Instance]) -> Vec<Top> {
-        let size = (self.high() - self.low()).max_element();
-        let same = SAME_LEVEL * size;
+    fn tops(&mut self, bodies: &[Reaching<'_>]) -> Vec<Top> {
+        let same = self.same_level();
         let levels: Vec<Option<f64>> = bodies.iter().map(|one| one.body.level_top(same)).collect();
         let bounds: Vec<_> = bodies.iter().map(|one| one.body.bounds()).collect();
         let mut tops = vec![Top::Free; bodies.len()];
@@ -211,7 +260,7 @@ impl AssemblyPlan {
                 continue;
             }
             let horizon = bodies.iter().position(|one| {
-                let Body::Side(side) = &one.body else {
+                let Body::Side(side) = &*one.body else {
                     return false;
                 };
                 side.level()
@@ -248,24 +297,24 @@ impl AssemblyPlan {
         tops
     }
 
-    fn add_shell(&mut self, instance: &Instance, top: Top) -> Result<usize, PlanError> {
+    fn add_shell(&mut self, reaching: &Reaching<'_>, top: Top) -> Result<usize, PlanError> {
         let level = match top {
             Top::Free => None,
             Top::OfDomain => Some(self.high().z),
             Top::UnderLid(level) | Top::UnderHorizon(_, level) => Some(level),
         };
-        let flush = match (level, &instance.body) {
+        let flush = match (level, &*reaching.body) {
             // Only troughs have a level top.
             (None, _) | (Some(_), Body::Ellipsoid(_) | Body::Side(_)) => None,
             (Some(level), Body::Trough(trough)) => {
                 let raised = trough.raised().map_err(|source| PlanError {
-                    volume: self.names[instance.volume].clone(),
+                    volume: self.names[reaching.volume].clone(),
                     source,
                 })?;
                 Some(Flush { level, raised })
             }
         };
-        let body = instance.body.clone();
+        let body = reaching.body.clone().into_owned();
         let shell = PlannedShell { body, flush };
         self.shells.push(shell);
         Ok(self.shells.len() - 1)

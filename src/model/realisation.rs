@@ -42,7 +42,7 @@ pub struct Instance {
 /// Draws of a feature that were rejected for one reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rejection {
-    /// The feature's id.
+    /// The feature's id; `domain` for the domain's own base and top.
     pub feature: String,
     /// Why, in a few words.
     pub reason: String,
@@ -63,6 +63,10 @@ pub struct Realisation {
     pub rejections: Vec<Rejection>,
     /// What is modelled: the block, between the domain's own base and top.
     pub extent: Extent,
+    /// What was drawn for the domain's own base and top, by parameter.
+    pub drawn: Vec<(String, f64)>,
+    /// What was decided because something takes no part, in words for the report.
+    pub decisions: Vec<String>,
 }
 
 /// Why a model has no realisation.
@@ -113,25 +117,30 @@ impl Realisation {
             planned,
             rejected,
             bounds,
+            drawn,
+            decisions,
             ..
         } = list;
         let extent = extent(&model.domain, &bounds)?;
         let made = realise_all(model, &planned, &volumes)?;
         let mut instances = Vec::with_capacity(made.len());
-        let mut counts: BTreeMap<(usize, &'static str), u32> = BTreeMap::new();
+        let mut counts: BTreeMap<(Option<usize>, &'static str), u32> = BTreeMap::new();
         for reason in rejected {
             *counts.entry(reason).or_default() += 1;
         }
         for (instance, rejected) in made {
             for reason in rejected {
-                *counts.entry((instance.feature, reason)).or_default() += 1;
+                let whose = Some(instance.feature);
+                *counts.entry((whose, reason)).or_default() += 1;
             }
             instances.push(instance);
         }
         let rejections = counts
             .into_iter()
             .map(|((feature, reason), count)| Rejection {
-                feature: model.features[feature].id.clone(),
+                feature: feature
+                    .map_or("domain", |at| &model.features[at].id)
+                    .to_owned(),
                 reason: reason.to_owned(),
                 count,
             })
@@ -142,6 +151,8 @@ impl Realisation {
             instances,
             rejections,
             extent,
+            drawn,
+            decisions,
         })
     }
 

@@ -1,11 +1,13 @@
 //! Selections: which features and levels take part.
 
-use super::spec::{Feature, Model};
+use super::spec::{ClinoformsSpec, Feature, FeatureKind, Model};
+use super::suggest;
 
 /// What to leave out of a model.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// Features (`channel`) or single volumes (`channel-3`) to leave out, with their children.
+    /// Features (`channel`) or single volumes (`channel-3`) to leave out, with their children; of a set of clinoforms a
+    /// clinothem (`lower-2`), or a belt in one (`lower-2/distal`) other than the first.
     pub without: Vec<String>,
     /// The deepest level that takes part; everything if not given.
     pub max_level: Option<u32>,
@@ -13,12 +15,26 @@ pub struct Selection {
 
 /// A name that selects nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the model has no feature or volume `{name}` to leave out{suggestion}")]
-pub struct UnknownName {
-    /// The name given.
-    pub name: String,
-    /// The nearest name that exists.
-    pub suggestion: String,
+pub enum SelectionError {
+    /// Nothing has this name.
+    #[error("the model has no feature or volume `{name}` to leave out; {remedy}")]
+    Unknown {
+        /// The name given.
+        name: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// The first belt of a clinothem cannot be left out alone.
+    #[error(
+        "`{name}` cannot be left out alone: the other belts of `{clinothem}` are divided from it; leave out `{clinothem}`, \
+         or one of the other belts"
+    )]
+    FirstBelt {
+        /// The name given.
+        name: String,
+        /// The clinothem's name.
+        clinothem: String,
+    },
 }
 
 impl Selection {
@@ -34,47 +50,142 @@ impl Selection {
         !self.without.iter().any(|without| without == name)
     }
 
-    /// Every name to leave out must be a feature, or look like one of its volumes.
-    pub fn check(&self, model: &Model) -> Result<(), UnknownName> {
+    /// Every name to leave out must be a feature, or look like one of its volumes. How many clinothems a set has is
+    /// known only when it is drawn.
+    pub fn check(&self, model: &Model) -> Result<(), SelectionError> {
         for name in &self.without {
-            if !model
+            let known = model
                 .features
                 .iter()
-                .any(|feature| names(model, feature, name))
-            {
-                let near = model
-                    .features
-                    .iter()
-                    .map(|feature| (strsim::jaro_winkler(&feature.id, name), &feature.id))
-                    .max_by(|a, b| a.0.total_cmp(&b.0));
-                let suggestion = near
-                    .filter(|(likeness, _)| *likeness > 0.7)
-                    .map_or(String::new(), |(_, id)| format!("; did you mean `{id}`?"));
-                return Err(UnknownName {
-                    name: name.clone(),
-                    suggestion,
-                });
+                .find_map(|feature| names(model, feature, name));
+            match known {
+                None => {
+                    return Err(SelectionError::Unknown {
+                        name: name.clone(),
+                        remedy: remedy(model, name),
+                    });
+                }
+                Some(Named::FirstBelt(clinothem)) => {
+                    return Err(SelectionError::FirstBelt {
+                        name: name.clone(),
+                        clinothem: clinothem.to_owned(),
+                    });
+                }
+                Some(Named::Volume) => {}
             }
         }
         Ok(())
     }
 }
 
-/// Whether a name is the feature's id or one of its volumes'.
-fn names(model: &Model, feature: &Feature, name: &str) -> bool {
+/// What a name is of a feature.
+enum Named<'a> {
+    /// The feature itself, or what can be left out of it.
+    Volume,
+    /// The first belt of this clinothem.
+    FirstBelt(&'a str),
+}
+
+/// What a name is of a feature, if it is anything.
+fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a>> {
     if feature.id == name {
-        return true;
+        return Some(Named::Volume);
+    }
+    if let FeatureKind::Clinoforms(spec) = &feature.kind {
+        let start = format!("{}{}-", path(model, feature), feature.id);
+        return names_part(spec, name.strip_prefix(&start)?, name);
     }
     let (path, own) = name.rsplit_once('/').unwrap_or(("", name));
-    let numbered = own.strip_prefix(&feature.id).is_some_and(|rest| {
-        let number = rest
-            .strip_prefix('-')
-            .and_then(|digits| digits.parse::<usize>().ok());
-        match number {
-            Some(number) => feature.count > 1 && (1..=feature.count).contains(&number),
-            None => rest.is_empty() && feature.count == 1,
+    let rest = own.strip_prefix(&feature.id)?;
+    let is_own = match rest.strip_prefix('-').map(number) {
+        Some(number) => {
+            let numbers = 1..=feature.count;
+            feature.count > 1 && number.is_some_and(|number| numbers.contains(&number))
         }
-    });
-    let parent = feature.parent.map(|parent| &model.features[parent]);
-    numbered && parent.map_or(path.is_empty(), |parent| names(model, parent, path))
+        None => rest.is_empty() && feature.count == 1,
+    };
+    let is_in_parent = match feature.parent.map(|parent| &model.features[parent]) {
+        None => path.is_empty(),
+        Some(parent) => matches!(names(model, parent, path), Some(Named::Volume)),
+    };
+    (is_own && is_in_parent).then_some(Named::Volume)
 }
+
+/// What `2` or `2/distal` is of a set of clinoforms.
+fn names_part<'a>(spec: &ClinoformsSpec, rest: &str, name: &'a str) -> Option<Named<'a>> {
+    let (own, belt) = match rest.split_once('/') {
+        Some((own, belt)) => (own, Some(belt)),
+        None => (rest, None),
+    };
+    // Without belts, what is below the first sheet is the parent's.
+    let first = usize::from(spec.belts.is_empty());
+    let most = spec.sheets.unwrap_or(usize::MAX);
+    if !(first..=most).contains(&number(own)?) {
+        return None;
+    }
+    let Some(belt) = belt else {
+        return Some(Named::Volume);
+    };
+    match spec.belts.iter().position(|one| one.name == belt)? {
+        0 => Some(Named::FirstBelt(
+            name.split_at(name.len() - belt.len() - 1).0,
+        )),
+        _ => Some(Named::Volume),
+    }
+}
+
+/// A volume's number, written as the program writes it.
+fn number(digits: &str) -> Option<usize> {
+    let number = digits.parse::<usize>().ok()?;
+    (number.to_string() == digits).then_some(number)
+}
+
+/// What stands before a feature's own name in those of its volumes; of a feature with many parents, of the first.
+fn path(model: &Model, feature: &Feature) -> String {
+    let parent = feature.parent.map(|parent| &model.features[parent]);
+    parent.map_or(String::new(), |parent| {
+        format!("{}{}/", path(model, parent), first_volume(parent))
+    })
+}
+
+/// A feature's own name in that of its first volume.
+fn first_volume(feature: &Feature) -> String {
+    match feature.kind {
+        FeatureKind::Clinoforms(_) => format!("{}-1", feature.id),
+        _ if feature.count > 1 => format!("{}-1", feature.id),
+        _ => feature.id.clone(),
+    }
+}
+
+/// What to do about an unknown name: the feature that is probably meant, or all.
+fn remedy(model: &Model, name: &str) -> String {
+    let ids: Vec<&str> = model.features.iter().map(|one| one.id.as_str()).collect();
+    let begins = |feature: &&Feature| {
+        let last = name.split('/').find(|part| {
+            part.strip_prefix(feature.id.as_str())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+        });
+        last.is_some()
+    };
+    let longest = |feature: &&Feature| feature.id.len();
+    let meant = match model.features.iter().filter(begins).max_by_key(longest) {
+        Some(feature) => Some(feature),
+        None => suggest::nearest(name, &ids)
+            .and_then(|id| model.features.iter().find(|one| one.id == id)),
+    };
+    let Some(feature) = meant else {
+        return format!("its features are {}", suggest::list(&ids));
+    };
+    let volume = path(model, feature) + &first_volume(feature);
+    if volume == feature.id {
+        return format!("did you mean `{}`?", feature.id);
+    }
+    format!(
+        "leave out all of `{}`, or a volume of it, as `{volume}`",
+        feature.id
+    )
+}
+
+#[cfg(test)]
+#[path = "selection_tests.rs"]
+mod tests;

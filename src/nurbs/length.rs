@@ -2,27 +2,7 @@
 
 use super::Curve;
 use super::bezier::Patch;
-
-/// Nodes in [0, 1] and weights of the eight-point rule, the first half; the rest mirrors it (Abramowitz & Stegun 1964,
-/// table 25.4).
-const RULE: [(f64, f64); 4] = [
-    (
-        0.5 - 0.5 * 0.183_434_642_495_649_8,
-        0.5 * 0.362_683_783_378_362,
-    ),
-    (
-        0.5 - 0.5 * 0.525_532_409_916_329,
-        0.5 * 0.313_706_645_877_887_3,
-    ),
-    (
-        0.5 - 0.5 * 0.796_666_477_413_626_7,
-        0.5 * 0.222_381_034_453_374_5,
-    ),
-    (
-        0.5 - 0.5 * 0.960_289_856_497_536_3,
-        0.5 * 0.101_228_536_290_376_26,
-    ),
-];
+use super::quadrature::EIGHT;
 
 /// Halvings after which a piece is too short to matter, even next to a cusp.
 const MOST_HALVINGS: usize = 50;
@@ -42,9 +22,10 @@ impl Curve {
 fn piece_length(patch: &Patch, tolerance: f64) -> f64 {
     let rule = |start: f64, end: f64| -> f64 {
         let speed = |x: f64| patch.jet(start + (end - start) * x, 0.0).du.length();
-        let sum: f64 = RULE
+        let sum: f64 = EIGHT
             .iter()
-            .map(|&(x, w)| w * (speed(x) + speed(1.0 - x)))
+            .map(|&(x, w)| (0.5 - 0.5 * x, 0.5 * w))
+            .map(|(x, w)| w * (speed(x) + speed(1.0 - x)))
             .sum();
         sum * (end - start)
     };

@@ -12,6 +12,7 @@ use super::faces::{Face, HalfEdge};
 use super::patch::{Along, ORDER, Slice};
 use super::sheet::Sheet;
 use super::tracks::{Geometry, Source, Tracks};
+use crate::nurbs::quadrature::{FIVE, Rule, TEN, THREE, TWO};
 
 /// Integrals over a face.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,46 +39,23 @@ impl Integral {
     }
 }
 
-/// Nodes and weights of Gauss–Legendre quadrature on [−1, 1], the half with positive nodes.
-const RULES: [&[(f64, f64)]; 4] = [
-    &[(0.577_350_269_189_625_8, 1.0)],
-    &[(0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)],
-    &[
-        (0.0, 0.568_888_888_888_888_9),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    ],
-    &[
-        (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
-        (0.433_395_394_129_247_2, 0.269_266_719_309_996_4),
-        (0.679_409_568_299_024_4, 0.219_086_362_515_982),
-        (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-        (0.973_906_528_517_171_7, 0.066_671_344_308_688_1),
-    ],
-];
-
 /// For pieces of computed curves: so short that a curve of degree 5 follows them to the tolerance.
-const PIECE: &[(f64, f64)] = RULES[1];
+const PIECE: Rule = THREE;
 /// The same on rational sheets: beside a pole, what lies across a piece varies faster than the piece does.
-const RATIONAL_PIECE: &[(f64, f64)] = RULES[3];
+const RATIONAL_PIECE: Rule = TEN;
 
 /// Which rule integrates polynomials of a sheet's flux exactly, and others well.
-fn rule(degree: usize, rational: bool) -> &'static [(f64, f64)] {
+fn rule(degree: usize, rational: bool) -> Rule {
     match (degree, rational) {
-        (_, true) => RULES[3],
-        (0 | 1, _) => RULES[0],
-        (2, _) => RULES[1],
-        (3, _) => RULES[2],
-        _ => RULES[3],
+        (_, true) => TEN,
+        (0 | 1, _) => TWO,
+        (2, _) => THREE,
+        (3, _) => FIVE,
+        _ => TEN,
     }
 }
 
-fn integrate(
-    rule: &[(f64, f64)],
-    from: f64,
-    to: f64,
-    mut at: impl FnMut(f64) -> Integral,
-) -> Integral {
+fn integrate(rule: Rule, from: f64, to: f64, mut at: impl FnMut(f64) -> Integral) -> Integral {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let mut sum = Integral::default();
     let mut add = |x: f64, weight: f64| {
@@ -175,7 +153,7 @@ fn of_flat_face(
             last = Some(end);
             let sign = if half.forward { 0.5 } else { -0.5 };
             let is_rational = matches!(source, Source::Edge(edge) if geometry.regions.edges[edge].curve.is_rational());
-            let rule = if is_rational { RULES[3] } else { RULES[2] };
+            let rule = if is_rational { TEN } else { FIVE };
             for pair in stops.windows(2) {
                 let own = integrate(rule, pair[0], pair[1], |t| {
                     let (point, tangent) = geometry.point_and_tangent(source, t);
@@ -234,8 +212,8 @@ struct Across<'a> {
     axis: usize,
     from: f64,
     middle: DVec3,
-    rule: &'static [(f64, f64)],
-    along: &'static [(f64, f64)],
+    rule: Rule,
+    along: Rule,
 }
 
 impl<'a> Across<'a> {

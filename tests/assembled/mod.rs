@@ -7,48 +7,29 @@
     reason = "shared by several test programs, none of which needs all of it; a test fails by panicking"
 )]
 
-use std::path::Path;
+mod checked;
 
 use clinothem::assembly::{self, Assembly, AssemblyError, Cancel, Engine, Options, proof};
+use clinothem::model::Model;
 use clinothem::model::owner::Owners;
 use clinothem::model::plan::AssemblyPlan;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::{Model, Source};
+
+#[allow(unused_imports, reason = "not every test program needs all of it")]
+pub use checked::*;
 
 /// A model with its solids.
 pub struct Built {
     pub model: Model,
     pub realisation: Realisation,
     pub owners: Owners,
+    pub plan: AssemblyPlan,
     pub assembly: Assembly,
-}
-
-/// A committed model's text; `name` is its path within `models`, without its ending.
-pub fn source(name: &str) -> Source {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("models")
-        .join(name)
-        .with_extension("toml");
-    Source::read(path).unwrap()
-}
-
-pub fn checked(source: &Source) -> Model {
-    Model::check(source).unwrap_or_else(|defects| panic!("{defects}"))
-}
-
-pub fn without(ids: &[&str]) -> Selection {
-    Selection {
-        without: ids.iter().map(ToString::to_string).collect(),
-        max_level: None,
-    }
 }
 
 impl Built {
     pub fn new(model: Model, selection: &Selection, engine: Engine) -> Result<Self, AssemblyError> {
-        let realisation = Realisation::new(&model, selection).unwrap();
-        let owners = Owners::new(&realisation).unwrap();
-        let plan = AssemblyPlan::new(&realisation).unwrap();
         let options = Options {
             engine,
             child: None,
@@ -56,17 +37,30 @@ impl Built {
             proof: proof::Level::Full,
             seed: model.seed,
         };
-        let assembly = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
+        Self::with(model, selection, &options)
+    }
+
+    pub fn with(
+        model: Model,
+        selection: &Selection,
+        options: &Options,
+    ) -> Result<Self, AssemblyError> {
+        let realisation = Realisation::new(&model, selection).unwrap();
+        let owners = Owners::new(&realisation).unwrap();
+        let plan = AssemblyPlan::new(&realisation).unwrap();
+        let assembly = assembly::assemble(&plan, &owners, options, &Cancel::new(), &|_, _| ())?;
         Ok(Self {
             model,
             realisation,
             owners,
+            plan,
             assembly,
         })
     }
 
     pub fn volume(&self, name: &str) -> usize {
-        self.realisation.volume(name).unwrap()
+        let volume = self.realisation.volume(name);
+        volume.unwrap_or_else(|| panic!("no volume {name}"))
     }
 
     pub fn size(&self, name: &str) -> f64 {
@@ -75,6 +69,13 @@ impl Built {
 
     pub fn pieces(&self, name: &str) -> usize {
         self.assembly.measured.pieces_of(self.volume(name)).len()
+    }
+
+    /// Area shared by two volumes (m²).
+    pub fn contact(&self, a: &str, b: &str) -> f64 {
+        let (a, b) = (self.volume(a), self.volume(b));
+        let contact = self.assembly.measured.contacts.get(&(a.min(b), a.max(b)));
+        contact.copied().unwrap_or(0.0)
     }
 
     pub fn solids(&self) -> usize {

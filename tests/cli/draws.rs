@@ -114,3 +114,19 @@ fn leaving_out_a_feature_a_volume_or_a_level_changes_no_other_draw() {
         assert_ne!(*values, other[name], "{name} depends on the seed");
     }
 }
+
+#[test]
+fn what_is_drawn_for_the_domains_own_top_is_in_the_report_and_in_its_volume() {
+    let sandbox = Sandbox::of("strata/bounds.toml");
+    let arguments =
+        "build model.toml --json -o out --formats none --set domain.top={level={uniform=[-9,-3]}}";
+    let domain = &sandbox.json(arguments)["domain"];
+    let drawn = domain["drawn"].as_object().unwrap();
+    assert_eq!(drawn.len(), 1, "the base is not random: {drawn:?}");
+    let top = drawn["top.level"].as_f64().unwrap();
+    assert!((-9.0..-3.0).contains(&top), "{top}");
+    // The base is a plane, at −36 m in the middle.
+    let wanted = 400.0 * 600.0 * (top + 36.0);
+    let volume = domain["volume_m3"].as_f64().unwrap();
+    assert!((volume / wanted - 1.0).abs() < 1e-12, "{volume} {wanted}");
+}

@@ -59,6 +59,17 @@ fn wrong_arguments_are_refused_with_1_and_leave_nothing() {
             "exaggeration",
         ),
         ("view model.toml --style block --exaggeration nan", "nan"),
+        ("section model.toml --width -5", "'-5'"),
+        ("section model.toml --from 1e300,0 --to 5,5", "beyond 1e9"),
+        ("view model.toml --style block --size -5,5", "whole numbers"),
+        ("view model.toml --style block --exaggeration -2", "-2"),
+        ("locate model.toml 1e308 0 0", "1e308 is beyond 1e9"),
+        (
+            "locate model.toml 300 200 -5 --tolerance 1e300",
+            "beyond 1e9",
+        ),
+        ("check model.toml --max-level -1", "-1"),
+        ("build model.toml --threads -1", "'-1'"),
         ("new delta", "quickstart"),
         ("new quickstart model.toml", "exists already"),
     ] {
@@ -90,6 +101,83 @@ fn places_that_cannot_be_written_to_are_refused_with_3_and_leave_nothing() {
             let errors = sandbox.refusal(&format!("{command} {place}{ending}"), 3);
             assert!(errors.contains(place), "{command} {place}: {errors}");
         }
+    }
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_named_with_what_to_do() {
+    let sandbox = Sandbox::new(STRAIGHT);
+    for command in [
+        "surfaces model.toml -o nowhere/x.step",
+        "section model.toml --map -5 -o nowhere/x.png",
+        "view model.toml --style block -o nowhere/x.png",
+        "new quickstart nowhere/x.toml",
+    ] {
+        let errors = sandbox.refusal(command, 3);
+        assert!(
+            errors.contains("nowhere does not exist; make that folder"),
+            "{errors}"
+        );
+        assert!(!errors.contains(".clinothem-"), "{errors}");
+    }
+    // A build makes its folder, but cannot replace a folder by a file.
+    sandbox.answer("build model.toml -o out --formats none");
+    std::fs::remove_file(sandbox.path("out/report.json")).unwrap();
+    std::fs::create_dir(sandbox.path("out/report.json")).unwrap();
+    let output = sandbox.run("build model.toml -o out --formats none");
+    assert_eq!(output.status.code(), Some(3));
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(errors.contains("out/report.json"), "{errors}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_below_standard_output_is_told_with_3_and_a_closed_pipe_is_no_failure() {
+    let sandbox = Sandbox::new(STRAIGHT);
+    for arguments in [
+        "--help",
+        "--version",
+        "help build",
+        "new",
+        "new quickstart made.toml",
+        "check model.toml",
+        "check model.toml --json",
+        "check model.toml --set seed=x --json",
+        "locate model.toml 300 200 -5",
+        "locate model.toml 300 200 -5 --json",
+        "schema",
+        "schema --report",
+        "section model.toml --map -5",
+        "surfaces model.toml",
+        "view model.toml --style block",
+        "build model.toml --formats none -o out",
+        "build model.toml --formats none -o out --json",
+    ] {
+        let to = |out: std::process::Stdio| {
+            let mut command = sandbox.std_command();
+            command.args(arguments.split(' ')).stdout(out);
+            drop(std::fs::remove_file(sandbox.path("made.toml")));
+            command.output().unwrap()
+        };
+        let full = std::fs::File::options().write(true).open("/dev/full");
+        let full = to(full.unwrap().into());
+        let errors = String::from_utf8(full.stderr).unwrap();
+        assert_eq!(full.status.code(), Some(3), "{arguments}: {errors}");
+        assert!(
+            errors.contains("cannot write to standard output: No space left"),
+            "{arguments}: {errors}"
+        );
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let closed = to(writer.into());
+        let errors = String::from_utf8(closed.stderr).unwrap();
+        let wrong = arguments.contains("seed=x");
+        assert_eq!(
+            closed.status.code(),
+            Some(i32::from(wrong)),
+            "{arguments}: {errors}"
+        );
+        assert_eq!(errors.is_empty(), !wrong, "{arguments}: {errors}");
     }
 }
 

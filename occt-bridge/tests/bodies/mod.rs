@@ -9,6 +9,7 @@
     reason = "tests"
 )]
 
+pub(crate) mod measured;
 pub(crate) mod tables;
 
 use occt_bridge::{Curve, Edge, EdgeUse, Face, Pcurve, Shape, Surface, Topology, solid};

@@ -26,7 +26,7 @@ pub struct Report {
     pub net_to_gross: Option<f64>,
     /// Draws that made no surface and were made again.
     pub rejected_draws: Vec<RejectedEntry>,
-    /// Coincidences that were decided before the kernel saw them.
+    /// What was decided before the kernel saw it: what takes no part, and coincidences.
     pub decisions: Vec<String>,
     /// Remarks on the model file.
     pub notes: Vec<String>,
@@ -69,6 +69,8 @@ pub struct DomainEntry {
     pub y: [f64; 2],
     /// Base and top (m).
     pub z: [f64; 2],
+    /// What was drawn for its own base and top, by parameter.
+    pub drawn: BTreeMap<String, f64>,
     /// Volume (m³).
     pub volume_m3: f64,
 }
@@ -154,7 +156,7 @@ pub struct GroupEntry {
 /// Draws that were rejected.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RejectedEntry {
-    /// The feature.
+    /// The feature; `domain` for the domain's own base and top.
     pub feature: String,
     /// Why.
     pub reason: String,

@@ -77,6 +77,7 @@ impl Report {
                 x: model.domain.x,
                 y: model.domain.y,
                 z: model.domain.z,
+                drawn: realisation.drawn.iter().cloned().collect(),
                 volume_m3: domain,
             },
             volumes,

@@ -46,7 +46,7 @@ fn design(frame: &ClinoformFrame, exponent: f64, toe: f64) -> ClinoformDesign {
     }
 }
 
-/// z by the formula of the contract, at a place in plan; and u there.
+/// z by the formula, at a place in plan; and u there.
 fn formula(
     design: &ClinoformDesign,
     unit: &ClinoformUnit,
@@ -245,6 +245,41 @@ fn sheets_reach_a_twentieth_of_the_height_beyond_the_horizons_or_end_on_a_level_
 }
 
 #[test]
+fn below_its_base_a_sheet_goes_down_a_sixteenth_of_the_height_but_not_farther_than_half_its_length()
+{
+    let (frame, unit) = (frame(90.0), flat());
+    for (toe, wanted) in [(0.3, 0.06 / 0.3), (0.9, 0.06 / 0.9), (0.01, 0.5)] {
+        let design = design(&frame, 2.0, toe);
+        let sheet = Clinoform::new(&design, &frame, &unit).unwrap();
+        let last = sheet.surface().knots_u().domain().1;
+        assert!((last - 1.0 - wanted).abs() < 1e-12, "toe {toe}: {last}");
+        // Along its tangent, by the toe's part of the height of 21 m.
+        let z = sheet.surface().point(last, 0.5).z;
+        assert!((z - (-21.3 - 21.0 * toe * wanted)).abs() < 1e-3, "{z}");
+    }
+}
+
+#[test]
+fn a_sheet_has_an_elevation_from_its_upper_border_to_its_toe_and_none_below_its_base() {
+    for (azimuth, unit) in [(320.0, flat()), (45.0, undulating())] {
+        let frame = frame(azimuth);
+        let design = design(&frame, 2.0, 0.3);
+        let sheet = Clinoform::new(&design, &frame, &unit).unwrap();
+        for q in [-300.0, 0.0, 250.0] {
+            let (top, toe) = (sheet.d_top(q), sheet.d_toe(q));
+            assert_eq!(sheet.elevation(toe + 0.01, q), None);
+            assert_eq!(sheet.elevation(top - (toe - top), q), None);
+            for (d, horizon) in [(top, unit.top()), (toe - 1e-6, unit.base())] {
+                let place = frame.place(d, q);
+                let off = sheet.elevation(d, q).unwrap() - horizon.height(place.x, place.y);
+                assert!(off.abs() < 2e-3, "{off}");
+            }
+            assert!(sheet.elevation(top - 1.0, q) > sheet.elevation(top, q));
+        }
+    }
+}
+
+#[test]
 fn a_tangent_toe_on_a_level_base_stays_on_it_below_an_undulating_top() {
     let base = Horizon::flat(-21.3).unwrap();
     let unit = ClinoformUnit::new(base, undulating().top().clone(), LOW, HIGH).unwrap();
@@ -352,7 +387,7 @@ fn numbers_that_make_no_clinoform_are_refused() {
     let (base, top) = (flat().base().clone(), flat().top().clone());
     assert!(matches!(
         ClinoformUnit::new(top, base, LOW, HIGH),
-        Err(FrameError::TopBelowBase { .. })
+        Err(FrameError::TopBelowBase(_))
     ));
     assert!(matches!(
         ClinoformFrame::new(HIGH, LOW, 0.0),

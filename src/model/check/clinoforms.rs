@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::feature::Draft;
-use super::quantity::{AZIMUTH, FRACTION, Limits, POSITIVE, quantity};
+use super::quantity::{AZIMUTH, CONCAVE, FRACTION, Limits, POSITIVE, quantity};
 use super::tuple::Tuple;
 use super::{Checker, Reported};
 use crate::model::file::ClinoformsFile;
@@ -72,7 +72,7 @@ impl Checker<'_> {
         );
         let first = need(file.first, "first", "first = 55", POSITIVE);
         let shoreline = self.shoreline(file.shoreline, draft);
-        let exponent = self.quantity_or_none(file.exponent, draft, "exponent", POSITIVE);
+        let exponent = self.quantity_or_none(file.exponent, draft, "exponent", CONCAVE);
         let toe = self.quantity_or_none(file.toe, draft, "toe", FRACTION);
         let sheets = self.sheets(file.sheets, draft);
         let belts = self.belts(file.belts, draft, family);

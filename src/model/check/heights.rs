@@ -51,16 +51,8 @@ impl Checker<'_> {
         needed: Option<[f64; 2]>,
     ) -> Option<[f64; 2]> {
         if low >= high {
-            let problem = if high < low {
-                "the wrong way round"
-            } else {
-                "empty"
-            };
-            self.reader.wrong(
-                node,
-                format!("the `{key}` of {name} from {low} to {high} is {problem}"),
-                "write [smaller, larger]",
-            );
+            let what = format!("the `{key}` of {name}");
+            self.no_range(node, &what, [low, high], "write [smaller, larger]");
             return None;
         }
         if let Some([first, last]) = needed

@@ -171,6 +171,20 @@ impl Checker<'_> {
         }
     }
 
+    /// A range that has nothing between its ends is a defect.
+    fn no_range(&self, node: NodeId, what: &str, [low, high]: [f64; 2], remedy: &'static str) {
+        let problem = if high < low {
+            "the wrong way round"
+        } else {
+            "empty"
+        };
+        self.reader.wrong(
+            node,
+            format!("{what} from {low} to {high} is {problem}"),
+            remedy,
+        );
+    }
+
     fn place(&self, node: NodeId) -> Place {
         let span = self.reader.tree.span(node);
         self.texts

@@ -33,6 +33,12 @@ pub(crate) const POSITIVE: Limits = Limits {
     open: true,
     words: "must be above 0",
 };
+pub(crate) const CONCAVE: Limits = Limits {
+    low: 1.0,
+    high: f64::INFINITY,
+    open: false,
+    words: "must be 1 (straight) or more (concave upwards)",
+};
 pub(crate) const ASYMMETRY: Limits = Limits {
     low: -0.5,
     high: 0.5,

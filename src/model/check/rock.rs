@@ -322,16 +322,8 @@ impl Checker<'_> {
             "z" => "write [base, top]; z points up, so depths are negative: z = [-60, 0]",
             _ => "write [smaller, larger]",
         };
-        let problem = if high < low {
-            "the wrong way round"
-        } else {
-            "empty"
-        };
-        self.reader.wrong(
-            node,
-            format!("the domain's `{axis}` from {low} to {high} is {problem}"),
-            remedy,
-        );
+        let what = format!("the domain's `{axis}`");
+        self.no_range(node, &what, [low, high], remedy);
         None
     }
 

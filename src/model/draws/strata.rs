@@ -282,3 +282,7 @@ impl Set<'_> {
         nodes
     }
 }
+
+#[cfg(test)]
+#[path = "strata_tests.rs"]
+mod tests;

@@ -1,6 +1,8 @@
 //! The list of volumes, in order of evaluation. What is drawn as a whole (horizons, clinoform sets) is drawn here: how many
 //! volumes there are depends on it.
 
+mod clinothems;
+
 use std::collections::BTreeMap;
 
 use glam::DVec3;
@@ -9,13 +11,10 @@ use super::{RealisationError, draw_whole};
 use crate::features::body::Body;
 use crate::features::extent::Extent;
 use crate::features::horizon::Horizon;
-use crate::features::side::Side;
 use crate::model::draws::{self, strata};
 use crate::model::rules::{BACKGROUND, VolumeRules};
 use crate::model::selection::Selection;
-use crate::model::spec::{
-    Bound, ClinoformsSpec, Domain, Feature, FeatureKind, HorizonSurface, Model, Selector,
-};
+use crate::model::spec::{Domain, Feature, FeatureKind, HorizonSurface, Model, Selector};
 
 /// A volume that is to be realised.
 pub(super) struct Planned {
@@ -41,10 +40,14 @@ pub(super) struct Listing<'a> {
     horizons: BTreeMap<usize, DrawnHorizon>,
     /// The domain's own base and top.
     pub(super) bounds: [Option<Horizon>; 2],
+    /// What was drawn for them.
+    pub(super) drawn: Vec<(String, f64)>,
     /// The unit above the last horizon so far.
     open: usize,
-    /// Draws that were rejected, by feature.
-    pub(super) rejected: Vec<(usize, &'static str)>,
+    /// Draws that were rejected, by feature; those of the domain have none.
+    pub(super) rejected: Vec<(Option<usize>, &'static str)>,
+    /// What was decided, in words for the report.
+    pub(super) decisions: Vec<String>,
 }
 
 type DrawnHorizon = (Horizon, Vec<(String, f64)>);
@@ -72,23 +75,49 @@ impl<'a> Listing<'a> {
             if let FeatureKind::Horizon(spec) = &feature.kind {
                 let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
                 let (drawn, reasons) = draw_whole(model, &feature.id, "1", draw)?;
-                rejected.extend(reasons.into_iter().map(|reason| (index, reason)));
+                rejected.extend(reasons.into_iter().map(|reason| (Some(index), reason)));
                 horizons.insert(index, drawn);
             }
         }
-        Ok(Self {
+        let mut list = Self {
             rejected,
+            decisions: Vec::new(),
             model,
             selection,
             volumes: vec![background],
             planned: Vec::new(),
             horizons,
-            bounds: [
-                bound(model, "base", model.domain.base.as_ref())?,
-                bound(model, "top", model.domain.top.as_ref())?,
-            ],
+            bounds: [None, None],
+            drawn: Vec::new(),
             open: BACKGROUND,
-        })
+        };
+        list.bounds = [
+            list.bound("base", model.domain.base.as_ref())?,
+            list.bound("top", model.domain.top.as_ref())?,
+        ];
+        Ok(list)
+    }
+
+    /// Draws the domain's own base or top.
+    fn bound(
+        &mut self,
+        which: &str,
+        surface: Option<&HorizonSurface>,
+    ) -> Result<Option<Horizon>, RealisationError> {
+        let Some(surface) = surface else {
+            return Ok(None);
+        };
+        let draw = |key: draws::Key<'_>| strata::horizon(surface, key);
+        let ((horizon, drawn), reasons) = draw_whole(self.model, "domain", which, draw)?;
+        let rejected = reasons.into_iter().map(|reason| (None, reason));
+        self.rejected.extend(rejected);
+        // `surface.level` of a horizon is `base.level` here, as in the model file.
+        let named = drawn.into_iter().map(|(parameter, value)| {
+            let own = parameter.trim_start_matches("surface.");
+            (format!("{which}.{own}"), value)
+        });
+        self.drawn.extend(named);
+        Ok(Some(horizon))
     }
 
     /// Adds the instances of all features with this parent (feature, volume).
@@ -174,114 +203,6 @@ impl<'a> Listing<'a> {
         Ok((Body::Side(side), drawn.clone()))
     }
 
-    /// The horizon that bounds the domain: its own, or the block's.
-    fn domain_bound(&self, top: bool) -> Result<Horizon, RealisationError> {
-        let at = usize::from(top);
-        match &self.bounds[at] {
-            Some(horizon) => Ok(horizon.clone()),
-            None => {
-                Horizon::flat(self.model.domain.z[at]).map_err(|error| impossible_domain(&error))
-            }
-        }
-    }
-
-    /// The horizons that bound the unit which a set divides.
-    fn unit(
-        &self,
-        feature: &Feature,
-        spec: &ClinoformsSpec,
-        parent: Option<usize>,
-    ) -> Result<[Horizon; 2], RealisationError> {
-        let base = match parent {
-            Some(unit) => self.horizons.get(&unit).map(|drawn| drawn.0.clone()),
-            None => Some(self.domain_bound(false)?),
-        };
-        let top = match spec.top {
-            Bound::Horizon(unit) => self.horizons.get(&unit).map(|drawn| drawn.0.clone()),
-            Bound::Domain => Some(self.domain_bound(true)?),
-        };
-        if let Bound::Horizon(unit) = spec.top
-            && !self.selection.keeps_feature(&self.model.features[unit])
-        {
-            let id = &self.model.features[unit].id;
-            return Err(RealisationError::Impossible {
-                volume: feature.id.clone(),
-                reason: format!(
-                    "its top is the horizon \"{id}\", which does not take part: keep that, or leave {} out, too",
-                    feature.id
-                ),
-            });
-        }
-        match (base, top) {
-            (Some(base), Some(top)) => Ok([base, top]),
-            _ => Err(RealisationError::Impossible {
-                volume: feature.id.clone(),
-                reason: "its base or its top is no horizon".to_owned(),
-            }),
-        }
-    }
-
-    /// Lists the clinothems of a set, and their belts: all sheets first, then the belts of each clinothem.
-    fn clinoforms(
-        &mut self,
-        index: usize,
-        spec: &ClinoformsSpec,
-        parent: Option<(usize, usize)>,
-        path: &str,
-    ) -> Result<(), RealisationError> {
-        let feature = &self.model.features[index];
-        let [base, top] = self.unit(feature, spec, parent.map(|parent| parent.0))?;
-        let domain = &self.model.domain;
-        let draw = |key: draws::Key<'_>| strata::clinoforms(spec, domain, &base, &top, key);
-        let (set, reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
-        let rejected = reasons.into_iter().map(|reason| (index, reason));
-        self.rejected.extend(rejected);
-        let unit = parent.map_or(BACKGROUND, |parent| parent.1);
-        let name = |clinothem: usize, belt: Option<&str>| match belt {
-            None => format!("{path}{}-{clinothem}", feature.id),
-            Some(belt) => format!("{path}{}-{clinothem}/{belt}", feature.id),
-        };
-        let volume = |list: &mut Self, name: &str, from: usize, belt: usize, body: Body, drawn| {
-            let mut rules = list.rules_of(feature, name, parent.map(|parent| parent.1));
-            rules.from = Some(from);
-            if let Some(belt) = spec.belts.get(belt) {
-                rules
-                    .facies
-                    .clone_from(&list.model.facies[belt.facies].name);
-            }
-            list.push(rules, index, "", name.to_owned(), Some((body, drawn)))
-        };
-        let landward = spec.belts.first().map(|belt| belt.name.as_str());
-        let mut firsts = Vec::with_capacity(set.sheets.len() + 1);
-        let mut from = unit;
-        if landward.is_some() {
-            let everywhere = Body::Side(Side::Everywhere.into());
-            from = volume(self, &name(0, landward), from, 0, everywhere, Vec::new());
-        }
-        firsts.push(from);
-        for (at, sheet) in set.sheets.into_iter().enumerate() {
-            let body = Body::Side(sheet.side);
-            from = volume(self, &name(at + 1, landward), from, 0, body, sheet.drawn);
-            firsts.push(from);
-        }
-        for (clinothem, (first, boundaries)) in firsts.into_iter().zip(set.boundaries).enumerate() {
-            let mut from = first;
-            for (at, boundary) in boundaries.into_iter().enumerate() {
-                let belt = spec.belts.get(at + 1).map(|belt| belt.name.as_str());
-                let body = Body::Side(boundary.side);
-                from = volume(
-                    self,
-                    &name(clinothem, belt),
-                    from,
-                    at + 1,
-                    body,
-                    boundary.drawn,
-                );
-            }
-        }
-        Ok(())
-    }
-
     fn rules_of(&self, feature: &Feature, name: &str, parent: Option<usize>) -> VolumeRules {
         VolumeRules {
             name: name.to_owned(),
@@ -303,19 +224,6 @@ fn impossible_domain(error: &impl ToString) -> RealisationError {
         volume: "domain".to_owned(),
         reason: error.to_string(),
     }
-}
-
-/// Draws the domain's own base or top.
-fn bound(
-    model: &Model,
-    which: &str,
-    surface: Option<&HorizonSurface>,
-) -> Result<Option<Horizon>, RealisationError> {
-    let drawn = surface.map(|surface| {
-        let draw = |key: draws::Key<'_>| strata::horizon(surface, key);
-        draw_whole(model, "domain", which, draw)
-    });
-    Ok(drawn.transpose()?.map(|((horizon, _), _)| horizon))
 }
 
 /// The domain's block between its own base and top.
