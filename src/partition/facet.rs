@@ -57,6 +57,17 @@ impl<'a> Facet<'a> {
         }
     }
 
+    /// Whether a plane across the direction that is in both tangent planes keeps both apart, by more than a distance.
+    pub(super) fn is_past(&self, other: &Facet<'_>, distance: f64) -> bool {
+        let (Some((a, _)), Some((b, _))) = (self.normals, other.normals) else {
+            return false;
+        };
+        let along = a.cross(b);
+        let [own, others] = [self, other].map(|facet| facet.patch.range_along(along));
+        let slack = distance * along.length();
+        own[0] > others[1] + slack || others[0] > own[1] + slack
+    }
+
     /// Whether no normal of one facet is parallel to one of another, as far as products of legs tell on both sides of a
     /// plane between their corners' normals.
     pub(super) fn leans_from(&self, other: &Facet<'_>) -> bool {

@@ -176,7 +176,7 @@ impl Patch {
     }
 
     /// The range of its control points along a direction.
-    fn range_along(&self, direction: DVec3) -> [f64; 2] {
+    pub(super) fn range_along(&self, direction: DVec3) -> [f64; 2] {
         points(&self.net, self.rational).fold(
             [f64::INFINITY, f64::NEG_INFINITY],
             |[low, high], p| {

@@ -106,6 +106,10 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let flat = a.lean() < FLAT && b.lean() < FLAT;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
+        // Where boxes and slabs overlap they may still be apart along the line of their planes.
+        if flat && a.is_past(b, self.slack()) {
+            return;
+        }
         if flat && a.is_askew(b) {
             if is_small || self.land(a, b, |_| true) {
                 return;
