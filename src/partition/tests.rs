@@ -331,3 +331,77 @@ fn sheets_that_run_along_each_other_are_undecided() {
     let made = partition(regions, &combinations, &Options::default()).unwrap();
     assert!(made.faults.undecided > 0, "{}", made.faults);
 }
+
+/// Boxes through each other, of which the younger takes from the older.
+fn boxes_in_boxes() -> Vec<Region> {
+    let at = |k: u32, ratio: f64| (f64::from(k) * ratio).fract();
+    let mut regions = vec![Region::Block {
+        low: DVec3::splat(-2.0),
+        high: DVec3::splat(2.0),
+    }];
+    regions.extend((1..9).map(|k| {
+        let middle = DVec3::new(at(k, 0.7549), at(k, 0.5698), at(k, 0.4302)) - 0.5;
+        let half = 0.4 + 0.5 * DVec3::new(at(k, 0.3819), at(k, 0.2361), at(k, 0.8541));
+        Region::Block {
+            low: middle - half,
+            high: middle + half,
+        }
+    }));
+    regions
+}
+
+#[test]
+fn not_looking_where_nothing_depends_on_it_changes_nothing_that_is_made() {
+    let youngest = |holds: &[bool]| {
+        let last = holds.iter().rposition(|held| *held);
+        last.filter(|_| holds[0])
+    };
+    let younger_hides = |by: usize, inside: bool, other: usize| inside && 0 < other && other < by;
+    let seeing_all = Options::default();
+    let looking_less = Options {
+        hides: &younger_hides,
+        ..Options::default()
+    };
+    let made = [&seeing_all, &looking_less].map(|options| {
+        let made = partition(boxes_in_boxes(), &youngest, options).unwrap();
+        assert!(made.faults.is_none(), "{}", made.faults);
+        let topology = made.topology;
+        let sizes: Vec<(usize, f64)> = topology
+            .solids
+            .iter()
+            .map(|solid| (solid.label, solid.size))
+            .collect();
+        (sizes, topology.faces.len(), topology.edges.len())
+    });
+    assert_eq!(made[0].1, made[1].1);
+    assert_eq!(made[0].2, made[1].2);
+    assert_eq!(made[0].0.len(), made[1].0.len());
+    for (all, less) in made[0].0.iter().zip(&made[1].0) {
+        assert_eq!(all.0, less.0);
+        assert!((all.1 - less.1).abs() < 1e-12 * all.1, "{all:?} {less:?}");
+    }
+    let triples = [&seeing_all, &looking_less].map(|options| {
+        let regions = Regions::new(boxes_in_boxes(), options).unwrap();
+        let tolerances = Tolerances::new(regions.domain.diagonal(), 1.0);
+        let settings = crossings::Settings {
+            tolerances,
+            clip: regions.domain,
+            stop: &|| false,
+        };
+        let found = Crossings::find(&regions, settings, &mut Faults::default());
+        found.triples.len()
+    });
+    assert!(3 * triples[1] < 2 * triples[0], "{triples:?}");
+}
+
+#[test]
+fn what_is_hidden_wrongly_is_not_made_in_silence() {
+    // The older boxes are said to be hidden, but the label asks for them.
+    let wrong = |by: usize, inside: bool, other: usize| inside && 0 < other && other < by;
+    let options = Options {
+        hides: &wrong,
+        ..Options::default()
+    };
+    let made = partition(boxes_in_boxes(), &combinations, &options).unwrap();
+    assert!(!made.faults.is_none());
+}
