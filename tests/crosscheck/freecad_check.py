@@ -16,8 +16,9 @@ import FreeCAD
 MM = 1000.0
 # FreeCAD integrates volumes with a fixed number of points: up to 8e-4 off for a solid of ours, 6e-5 for their sum.
 ROUGH, ROUGH_SUM = 1e-3, 1e-4
-# For models with ellipsoids, whose rational surfaces these points fit worse.
-ROUGH_ROUND = 3e-3
+# For models with ellipsoids, whose rational surfaces these points fit worse, and with a curved base or top: there the kernel's
+# integrals to a given error agree with the report to 1e-8.
+ROUGH_ROUND, ROUGH_SUM_ROUND = 3e-3, 3e-4
 
 
 class Findings:
@@ -73,8 +74,16 @@ def check_tree(report, volumes, by_volume, found):
                 found.expect(holds, f"{part.Label} is {path}, not below {wanted} of the model")
 
 
+def is_block(domain):
+    """Whether the domain has no base or top of its own, which lie somewhere within the block."""
+    sides = [domain[axis][1] - domain[axis][0] for axis in "xyz"]
+    return abs(domain["volume_m3"] / (sides[0] * sides[1] * sides[2]) - 1) < 1e-9
+
+
 def check_shapes(report, volumes, by_volume, found):
-    rough = ROUGH_ROUND if any(v["kind"] == "ellipsoid" for v in volumes.values()) else ROUGH
+    domain = report["domain"]
+    curved = any(v["kind"] == "ellipsoid" for v in volumes.values()) or not is_block(domain)
+    rough = ROUGH_ROUND if curved else ROUGH
     total, count, worst = 0.0, 0, 0.0
     corners = []
     for name, own in by_volume.items():
@@ -91,15 +100,17 @@ def check_shapes(report, volumes, by_volume, found):
             worst = max(worst, abs(size / told - 1))
         total += sum(sizes)
         count += len(sizes)
-    domain = report["domain"]
-    found.expect(abs(total / domain["volume_m3"] - 1) <= ROUGH_SUM, f"all solids have {total} m³, not {domain['volume_m3']}")
+    rough_sum = ROUGH_SUM if is_block(domain) else ROUGH_SUM_ROUND
+    found.expect(abs(total / domain["volume_m3"] - 1) <= rough_sum, f"all solids have {total} m³, not {domain['volume_m3']}")
     for i, axis in enumerate("xyz"):
         span = [min(c[i] for c in corners), max(c[i] for c in corners)]
         wanted = [MM * x for x in domain[axis]]
         slack = MM * report["assembly"]["tolerance_m"]
-        found.expect(
-            all(abs(a - b) <= slack for a, b in zip(span, wanted)), f"{axis} runs over {span} mm, not {wanted}"
-        )
+        if axis == "z" and not is_block(domain):
+            fits = wanted[0] - slack <= span[0] and span[1] <= wanted[1] + slack
+        else:
+            fits = all(abs(a - b) <= slack for a, b in zip(span, wanted))
+        found.expect(fits, f"{axis} runs over {span} mm, not {wanted}")
     return count, worst, abs(total / domain["volume_m3"] - 1)
 
 
