@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::print;
 use crate::model::rules::{Rules, Verdict, VolumeRules};
-use crate::model::{HorizonSurface, Quantity};
+use crate::model::{HorizonSurface, Quantity, meshing};
 
 /// Report every defect of a model file, and how its rules resolve.
 ///
@@ -207,6 +207,9 @@ fn text(loaded: &Loaded, lines: &[Line]) -> String {
     for note in &model.notes {
         let _ = writeln!(out, "\nnote: {}: {}", note.place, note.message);
     }
+    for advice in meshing::advice(&loaded.realisation) {
+        let _ = writeln!(out, "\nmeshing: {advice}");
+    }
     out
 }
 
@@ -239,7 +242,8 @@ fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
         .map(|note| serde_json::json!({ "place": note.place.to_string(), "message": note.message }))
         .collect();
     serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features,
-        "decisions": loaded.realisation.decisions, "notes": notes })
+        "decisions": loaded.realisation.decisions, "notes": notes,
+        "meshing": meshing::advice(&loaded.realisation) })
 }
 
 /// A surface in a few words.

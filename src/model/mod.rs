@@ -16,6 +16,7 @@ mod file;
 mod formula;
 mod interior;
 mod json_text;
+pub mod meshing;
 mod overrides;
 pub mod owner;
 pub mod plan;

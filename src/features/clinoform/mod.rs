@@ -287,6 +287,14 @@ impl Clinoform {
             .then(|| self.surface.point(u, v).z)
     }
 
+    /// Whether the sheet meets its base at no angle, as without a toe.
+    pub fn is_tangent_to_base(&self) -> bool {
+        let height = |u: f64| self.surface.point(u, 0.5).z;
+        // A thousandth up the profile a straight toe has risen by a thousandth of its share of the height, a curved one by less.
+        let part = (height(0.999) - height(1.0)) / (height(0.0) - height(1.0));
+        part < 5e-5
+    }
+
     fn v(&self, q: f64) -> f64 {
         let reach = self.frame.reach();
         ((q + reach) / (2.0 * reach)).clamp(0.0, 1.0)
