@@ -198,7 +198,10 @@ class Taker {
       surface = trimmed->BasisSurface();
     const bool plane = surface->IsKind(STANDARD_TYPE(Geom_Plane));
     BoundaryFaceRow row{surfaces_.index(surface), 0};
-    for (TopoDS_Iterator it(face); it.More(); it.Next(), ++row.loops) {
+    for (TopoDS_Iterator it(face); it.More(); it.Next()) {
+      // A general fuse leaves vertices in faces where other bodies only touch them: they bound nothing.
+      if (it.Value().ShapeType() == TopAbs_VERTEX) continue;
+      ++row.loops;
       const std::vector<TopoDS_Edge> edges = loop(TopoDS::Wire(it.Value()), face);
       for (const TopoDS_Edge& edge : edges) take_use(edge, face, plane);
       rows_.loops.push_back(static_cast<std::uint32_t>(edges.size()));
