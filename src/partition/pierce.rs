@@ -42,6 +42,12 @@ const LEAST: f64 = 1e-7;
 /// Most halvings of one curve with one sheet.
 const MOST: usize = 100_000;
 
+/// Whether a range of a curve's parameters meets some stretches of it.
+pub(super) fn meets([from, to]: [f64; 2], stretches: &[[f64; 2]]) -> bool {
+    let meets = |stretch: &[f64; 2]| from <= stretch[1] && stretch[0] <= to;
+    stretches.iter().any(meets)
+}
+
 /// Segments by number.
 type Few = SmallVec<[usize; 16]>;
 
@@ -169,18 +175,16 @@ impl<'a> Piercing<'a> {
     /// Only on some stretches of the curve.
     pub(super) fn within(mut self, stretches: &[[f64; 2]]) -> Self {
         let near = *self.sheet.bounds();
-        let meets = |[from, to]: [f64; 2]| {
-            let meets = |stretch: &[f64; 2]| from <= stretch[1] && stretch[0] <= to;
-            stretches.iter().any(meets)
-        };
         let near: Vec<usize> = (0..self.segments.len())
             .filter(|at| {
                 let segment = &self.segments[*at];
-                meets(segment.t) && segment.bounds.meets(&near) && segment.bounds.meets(&self.clip)
+                meets(segment.t, stretches)
+                    && segment.bounds.meets(&near)
+                    && segment.bounds.meets(&self.clip)
             })
             .collect();
         self.nodes(self.sheet.root(), &near);
-        self.roots.retain(|root| meets([root.t; 2]));
+        self.roots.retain(|root| meets([root.t; 2], stretches));
         self.roots.sort_by(|a, b| a.t.total_cmp(&b.t));
         self
     }

@@ -9,7 +9,7 @@ use super::bounds::Bounds;
 use super::crossings::{Crossing, MATCH, Triple};
 use super::hermite;
 use super::pair::Tolerances;
-use super::pierce::{Piercing, Root, Segment};
+use super::pierce::{Piercing, Root, Segment, meets};
 use super::region::Regions;
 use super::solve::solve;
 
@@ -79,10 +79,11 @@ impl<'a> Thirds<'a> {
             if self.own.contains(&region) {
                 continue;
             }
-            if self.may_hide(region) && self.is_hidden(region, &self.live[0], 1) {
+            let may_hide = self.may_hide(region);
+            if may_hide && self.is_hidden(region, &self.live[0], 1) {
                 order.push((0, region));
             } else if is_near {
-                order.push((if self.may_hide(region) { 1 } else { 2 }, region));
+                order.push((if may_hide { 1 } else { 2 }, region));
             }
         }
         order.sort_unstable();
@@ -219,11 +220,9 @@ impl<'a> Thirds<'a> {
 
 /// A box that holds some stretches of a curve.
 fn bounds(segments: &[Segment], stretches: &[[f64; 2]]) -> Bounds {
-    let meets = |segment: &&Segment| {
-        let [from, to] = segment.t;
-        stretches.iter().any(|own| from <= own[1] && own[0] <= to)
-    };
-    let own = segments.iter().filter(meets);
+    let own = segments
+        .iter()
+        .filter(|segment| meets(segment.t, stretches));
     own.fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()))
 }
 
