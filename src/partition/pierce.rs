@@ -199,7 +199,10 @@ impl<'a> Piercing<'a> {
         let near: Few = near.iter().copied().filter(meets).collect();
         match node.kind {
             _ if near.is_empty() => {}
-            NodeKind::Leaf(patch) => self.patches(self.sheet.patch(patch), &near),
+            NodeKind::Leaf(patch) => {
+                let facet = self.sheet.facet(patch);
+                self.patches(&facet.patch, &|| facet.normals, &near);
+            }
             NodeKind::Pair(a, b) => {
                 self.nodes(a, &near);
                 self.nodes(b, &near);
@@ -207,8 +210,13 @@ impl<'a> Piercing<'a> {
         }
     }
 
-    /// Halves a patch once for all segments that are much smaller.
-    fn patches(&mut self, patch: &Patch, near: &[usize]) {
+    /// Halves a patch once for all segments that are much smaller. Its normals are asked for when it is small enough.
+    fn patches(
+        &mut self,
+        patch: &Patch,
+        normals: &dyn Fn() -> Option<(DVec3, f64)>,
+        near: &[usize],
+    ) {
         let segments = self.segments;
         let may_pass = |at: &usize| segments[*at].may_pass(patch);
         let near: Few = near.iter().copied().filter(may_pass).collect();
@@ -216,9 +224,11 @@ impl<'a> Piercing<'a> {
         let longest = near.iter().map(size).fold(0.0, f64::max);
         if near.len() > 1 && patch.bounds.extent() > RATIO * longest {
             let wanted = |bounds: &Bounds| near.iter().any(|at| segments[*at].bounds.meets(bounds));
-            patch.halve(patch.longer(), wanted, |half| self.patches(&half, &near));
+            patch.halve(patch.longer(), wanted, |half| {
+                self.patches(&half, &|| half.normals(), &near);
+            });
         } else if !near.is_empty() {
-            let facet = Facet::whole(patch, patch.normals());
+            let facet = Facet::whole(patch, normals());
             for at in near {
                 self.segment = at;
                 self.pieces(&segments[at], &facet);
