@@ -1,5 +1,44 @@
 //! What went wrong, counted. A partition is used only if every count is zero.
 
+use glam::DVec3;
+
+use super::bounds::Bounds;
+
+/// Where two regions' sheets are too near each other to tell how they lie.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubt {
+    /// The regions.
+    pub regions: [usize; 2],
+    /// Lower corner of a box that holds the place (m).
+    pub low: DVec3,
+    /// Upper corner (m).
+    pub high: DVec3,
+    /// Greatest distance between the sheets there, as far as it is known (m).
+    pub gap: f64,
+    /// What they do there.
+    pub what: &'static str,
+}
+
+impl Doubt {
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            low: self.low,
+            high: self.high,
+        }
+    }
+
+    /// Whether it is one with another, within a distance.
+    pub(super) fn is_beside(&self, other: &Self, reach: f64) -> bool {
+        self.regions == other.regions && self.bounds().grown(reach).meets(&other.bounds())
+    }
+
+    pub(super) fn join(&mut self, other: &Self) {
+        let both = self.bounds().and(other.bounds());
+        (self.low, self.high) = (both.low, both.high);
+        self.gap = self.gap.max(other.gap);
+    }
+}
+
 /// Counts of what contradicts itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Faults {

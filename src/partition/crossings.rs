@@ -7,8 +7,11 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::along::Along;
 use super::bounds::Bounds;
-use super::check::Faults;
+use super::check::{Doubt, Faults};
+use super::contours::Contours;
+use super::heights::Heights;
 use super::hermite::{Branch, End, Node};
 use super::march::{March, Stop};
 use super::pair::{Pair, Tolerances};
@@ -52,6 +55,8 @@ pub(super) struct Crossings {
     pub(super) triples: Vec<Triple>,
     /// Regions whose sheets' crossings have faults.
     pub(super) doubtful: Vec<usize>,
+    /// Where they are too near each other.
+    pub(super) doubts: Vec<Doubt>,
 }
 
 /// How to look for crossings.
@@ -87,6 +92,7 @@ struct Traced {
     sheets: [usize; 2],
     crossings: Vec<Crossing>,
     faults: Faults,
+    doubts: Vec<Doubt>,
 }
 
 impl Crossings {
@@ -114,11 +120,13 @@ impl Crossings {
             .collect();
         let mut crossings = Vec::new();
         let mut doubtful = Vec::new();
+        let mut doubts = Vec::new();
         for one in traced {
             if !one.faults.is_none() {
                 doubtful.extend(one.sheets.map(|sheet| regions.sheets[sheet].region));
             }
             faults.add(&one.faults);
+            doubts.extend(one.doubts);
             crossings.extend(one.crossings);
         }
         let found: Vec<(Vec<Triple>, usize)> = (0..crossings.len())
@@ -139,6 +147,7 @@ impl Crossings {
         doubtful.dedup();
         Self {
             doubtful,
+            doubts,
             roots,
             curves: crossings,
             triples: all,
@@ -181,14 +190,21 @@ pub(super) fn edge_roots(
             if !wanted || !other.bounds().meets(&own.bounds) {
                 continue;
             }
-            let found = Piercing::new(&own.segments, other, tolerances, clip).run();
-            undecided += found.undecided;
-            roots.extend(
-                found
-                    .roots
-                    .into_iter()
-                    .map(|root| EdgeRoot { edge, sheet, root }),
-            );
+            let on_height = own
+                .sheets()
+                .into_iter()
+                .find_map(|at| Heights::of([&regions.sheets[at], other]));
+            let (found, doubtful) = if let Some(heights) = on_height {
+                let everywhere = [[f64::NEG_INFINITY, f64::INFINITY]];
+                let found =
+                    Along::new(heights, tolerances, clip).within(&own.segments, &everywhere);
+                (found.roots, found.undecided)
+            } else {
+                let found = Piercing::new(&own.segments, other, tolerances, clip).run();
+                (found.roots, found.undecided)
+            };
+            undecided += doubtful;
+            roots.extend(found.into_iter().map(|root| EdgeRoot { edge, sheet, root }));
         }
         (roots, undecided)
     };
@@ -212,10 +228,7 @@ fn trace(
     tolerances: Tolerances,
     clip: Bounds,
 ) -> Traced {
-    let pair = Pair {
-        sheets: sheets.map(|at| &regions.sheets[at]),
-        tolerances,
-    };
+    let pair = Pair::new(sheets.map(|at| &regions.sheets[at]), tolerances);
     let beyond = FAR * (regions.domain.high - regions.domain.low);
     let far = Bounds {
         low: clip.low - beyond,
@@ -253,14 +266,22 @@ fn trace(
         branches.push(branch);
     }
     let found = |node: Node| march.through(node);
-    let mut search = Search::new(pair, clip, branches, found, &matters);
-    search.run();
-    faults.undecided += search.undecided + usize::from(search.gave_up());
-    let first_new = search
-        .branches
+    let mut doubts = Vec::new();
+    let mut branches = if let Some(heights) = pair.heights {
+        let mut search = Contours::new(pair, heights, [clip, far], branches, found, &matters);
+        search.run();
+        faults.undecided += search.doubts.len();
+        doubts = search.doubts;
+        search.branches
+    } else {
+        let mut search = Search::new(pair, clip, branches, found, &matters);
+        search.run();
+        faults.undecided += search.undecided + usize::from(search.gave_up());
+        search.branches
+    };
+    let first_new = branches
         .iter()
         .position(|branch| !matches!(branch.ends[0], End::AtRoot(_)));
-    let mut branches = search.branches;
     let new = branches.split_off(first_new.unwrap_or(branches.len()));
     for mut branch in new {
         // Only one branch starts at a root: one that ends at a root of another is the same, seen from a place where the
@@ -279,6 +300,7 @@ fn trace(
         sheets,
         crossings,
         faults,
+        doubts,
     }
 }
 
@@ -378,10 +400,7 @@ fn pass_through(
 ) {
     for triple in triples {
         let Crossing { sheets, branch } = &mut crossings[triple.crossing];
-        let pair = Pair {
-            sheets: sheets.map(|at| &regions.sheets[at]),
-            tolerances,
-        };
+        let pair = Pair::new(sheets.map(|at| &regions.sheets[at]), tolerances);
         let towards = branch.in_space(triple.t)[1];
         if let Some(node) = pair.node(triple.q, Some(towards)) {
             branch.insert(triple.t, node);

@@ -16,17 +16,21 @@
 //! **Limits.** Sheets of different regions must cross at an angle or stay apart. Where they touch, or run along
 //! each other, a count in [`Faults`] is not zero and the result must not be used.
 
+mod along;
 mod arcs;
 mod bernstein;
 mod bounds;
 mod boxes;
 mod builder;
 mod check;
+mod common;
 mod cone;
+mod contours;
 mod crossings;
 mod edge;
 mod faces;
 mod facet;
+mod heights;
 mod hermite;
 mod landing;
 mod march;
@@ -38,6 +42,7 @@ mod quadrature;
 mod region;
 mod relations;
 mod samples;
+mod scalar;
 mod seeds;
 mod sheet;
 mod solids;
@@ -52,7 +57,7 @@ mod tests;
 use crate::nurbs::enclosure::EnclosureError;
 use glam::DVec3;
 
-pub use check::Faults;
+pub use check::{Doubt, Faults};
 pub use quadrature::Integral;
 pub use region::{Membership, Region};
 pub use topology::{
@@ -144,6 +149,8 @@ pub struct Partition {
     pub faults: Faults,
     /// Regions whose curves have faults, as far as it is known.
     pub doubtful_regions: Vec<usize>,
+    /// Where sheets are too near each other to tell how they lie.
+    pub doubts: Vec<Doubt>,
     /// Pairs of regions whose sheets cross inside the domain.
     pub crossing_regions: Vec<(usize, usize)>,
     /// Computed curves.
@@ -222,6 +229,7 @@ pub fn partition(
         topology,
         faults,
         doubtful_regions: crossings.doubtful,
+        doubts: crossings.doubts,
         crossing_regions,
         branches: crossings.curves.len(),
         timings: clock.laps,

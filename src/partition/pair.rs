@@ -1,7 +1,8 @@
 //! Two sheets: points of their intersection by Newton's method, and the curve's derivatives there.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3Swizzles};
 
+use super::heights::Heights;
 use super::hermite::Node;
 use super::sheet::Sheet;
 use super::solve::solve;
@@ -31,9 +32,17 @@ impl Tolerances {
             same: 1e-10 * scale,
         }
     }
+
+    /// A curve of which rounding hides the place by more than this is none.
+    pub(super) fn hidden(&self) -> f64 {
+        1e-9 * self.scale
+    }
 }
 
-/// Sheets nearer to parallel than this have no curve that can be followed.
+/// How much being off a curve of heights in plan counts against being off the sheets.
+const ACROSS: f64 = 0.1;
+
+/// Sheets nearer to parallel than this have no curve that can be followed, unless they are heights over one plan.
 pub(super) const PARALLEL: f64 = 1e-5;
 
 /// What closes the system of three equations `A(u, v) = B(s, t)` in four unknowns.
@@ -107,9 +116,19 @@ impl Step {
 pub(super) struct Pair<'a> {
     pub(super) sheets: [&'a Sheet; 2],
     pub(super) tolerances: Tolerances,
+    /// Both as heights over one plan, if they are.
+    pub(super) heights: Option<Heights<'a>>,
 }
 
-impl Pair<'_> {
+impl<'a> Pair<'a> {
+    pub(super) fn new(sheets: [&'a Sheet; 2], tolerances: Tolerances) -> Self {
+        Self {
+            sheets,
+            tolerances,
+            heights: Heights::of(sheets),
+        }
+    }
+
     /// Moves parameters to a common point of both sheets. `false` if it does not converge near them.
     pub(super) fn newton(&self, q: &mut [f64; 4], closing: Closing, most: usize) -> bool {
         // A third of a sheet's parameters beyond its borders.
@@ -129,6 +148,9 @@ impl Pair<'_> {
         most: usize,
         ranges: &[[f64; 2]; 4],
     ) -> bool {
+        if let Some(heights) = &self.heights {
+            return heights.newton(q, closing, most, ranges, &self.tolerances);
+        }
         for _ in 0..most {
             let jets = [
                 self.sheets[0].first_jet(q[0], q[1]),
@@ -153,6 +175,9 @@ impl Pair<'_> {
 
     /// The curve's node at a common point, running along `towards` if given. `None` where the sheets touch.
     pub(super) fn node(&self, q: [f64; 4], towards: Option<DVec3>) -> Option<Node> {
+        if let Some(heights) = &self.heights {
+            return heights.node(q, towards, &self.tolerances);
+        }
         let a = self.sheets[0].jet(q[0], q[1]);
         let b = self.sheets[1].jet(q[2], q[3]);
         let (na, nb) = (a.normal(), b.normal());
@@ -199,15 +224,24 @@ impl Pair<'_> {
         let mut most: f64 = 0.0;
         for fraction in fractions {
             let value = super::hermite::at(&points, *fraction);
-            let p = super::hermite::space(&value);
+            let space = super::hermite::space(&value);
             for side in 0..2 {
                 let q = super::hermite::on_sheet(&value, side);
-                let gap = self.sheets[side].point(q.x, q.y).distance(p);
+                let gap = self.sheets[side].point(q.x, q.y).distance(space);
                 // `max` would drop a NaN.
                 if gap.is_nan() {
                     return f64::INFINITY;
                 }
                 most = most.max(gap);
+            }
+            if let Some(heights) = &self.heights {
+                // Nearly parallel sheets are near each other far from where they cross.
+                let off = heights.off(space.xy());
+                most = most.max(if off.is_nan() {
+                    f64::INFINITY
+                } else {
+                    ACROSS * off
+                });
             }
         }
         most

@@ -98,6 +98,12 @@ impl Patch {
         }
     }
 
+    /// The elevations of its control points, u-major, with its orders.
+    pub(super) fn elevations(&self) -> ([usize; 2], impl Iterator<Item = f64>) {
+        let elevations = points(&self.net, self.rational).map(|p| p.z);
+        ([self.rows, self.columns], elevations)
+    }
+
     /// The parameters of its middle.
     pub(super) fn middle(&self) -> [f64; 2] {
         [0.5 * (self.u[0] + self.u[1]), 0.5 * (self.v[0] + self.v[1])]

@@ -101,7 +101,7 @@ impl Segment {
         (p, (d.xyz() - d.w * p) / h.w)
     }
 
-    fn halves(&self) -> [Self; 2] {
+    pub(super) fn halves(&self) -> [Self; 2] {
         let degree = self.points.len() - 1;
         let (mut low, mut high) = (self.points.clone(), self.points.clone());
         for round in 1..=degree {
@@ -115,6 +115,18 @@ impl Segment {
             Self::new(low, [self.t[0], middle]).with_slack(self.slack),
             Self::new(high, [middle, self.t[1]]).with_slack(self.slack),
         ]
+    }
+
+    /// Bounds of the derivative of x (0) or y (1) by t, of a piece without weights.
+    pub(super) fn rates(&self, axis: usize) -> [f64; 2] {
+        let rate = (self.points.len() - 1) as f64 / (self.t[1] - self.t[0]);
+        let legs = self
+            .points
+            .windows(2)
+            .map(|legs| rate * (legs[1][axis] - legs[0][axis]));
+        legs.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        })
     }
 
     fn tangents(&self) -> Option<(DVec3, f64)> {

@@ -1,9 +1,10 @@
 //! Sheets: surfaces as grids of Bézier patches with a box tree.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::facet::Facet;
+use super::heights::Plan;
 use super::patch::{Jet, ORDER, Patch};
 use crate::nurbs::Surface;
 
@@ -17,6 +18,8 @@ pub(super) struct Sheet {
     pub(super) outward: f64,
     /// A point, the unit normal `S_u × S_v` and the direction of u, if it is flat.
     pub(super) plane: Option<[DVec3; 3]>,
+    /// Where its parameters are in plan, if it is a height over it.
+    pub(super) plan: Option<Plan>,
     /// Borders that join no other sheet: where curves end there, nobody asks.
     pub(super) open: Vec<Border>,
     /// Level sheets of other regions that it ends on.
@@ -100,12 +103,13 @@ impl Sheet {
         // The nurbs module lists patches by u, then v; say so where it matters.
         patches.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]).then(a.v[0].total_cmp(&b.v[0])));
         let mut sheet = Self {
-            surface,
             region,
             outward: 1.0,
             open: Vec::new(),
             lands_on: Vec::new(),
             plane: None,
+            plan: Plan::of(&surface),
+            surface,
             knots,
             normals: patches.iter().map(Patch::normals).collect(),
             patches,
@@ -207,6 +211,22 @@ impl Sheet {
     fn span(&self, axis: usize, value: f64) -> usize {
         let inner = &self.knots[axis][1..self.knots[axis].len() - 1];
         inner.partition_point(|knot| *knot <= value)
+    }
+
+    /// The spans of patches that meet a rectangle of parameters.
+    pub(super) fn patches_between(
+        &self,
+        low: DVec2,
+        high: DVec2,
+    ) -> [std::ops::RangeInclusive<usize>; 2] {
+        [0, 1].map(|axis| self.span(axis, low[axis])..=self.span(axis, high[axis]))
+    }
+
+    /// The patches of such spans.
+    pub(super) fn patches_of(&self, spans: &[std::ops::RangeInclusive<usize>; 2]) -> Vec<usize> {
+        let columns = self.knots[1].len() - 1;
+        let row = |u: usize| spans[1].clone().map(move |v| u * columns + v);
+        spans[0].clone().flat_map(row).collect()
     }
 
     /// The patch that holds a place, or is nearest to it.

@@ -3,15 +3,15 @@
 //! Most of a branch can lie where one of its two regions makes no difference: a younger body has taken the place, or
 //! what the region divides is not there. Nothing is looked for on such stretches; they bound nothing.
 
-use glam::DVec3;
-
+use super::along::Along;
 use super::bounds::Bounds;
+use super::common::Common;
 use super::crossings::{Crossing, MATCH, Triple};
+use super::heights::Heights;
 use super::hermite;
 use super::pair::Tolerances;
 use super::pierce::{Piercing, Root, Segment, meets};
 use super::region::Regions;
-use super::solve::solve;
 
 /// Where a stretch is asked on which side of a region it is. It lies on one; but the side of open sheets may change
 /// unseen where it does not matter, so more than one place is asked.
@@ -138,10 +138,22 @@ impl<'a> Thirds<'a> {
         let mut cuts = Vec::new();
         for sheet in self.sheets(region) {
             let other = &self.regions.sheets[sheet];
-            let found =
-                Piercing::new(&self.segments, other, self.tolerances, self.clip).within(&self.live);
-            self.undecided += found.undecided;
-            for root in found.roots {
+            let on_height = self
+                .crossing
+                .sheets
+                .iter()
+                .find_map(|own| Heights::of([&self.regions.sheets[*own], other]));
+            let (roots, undecided) = if let Some(heights) = on_height {
+                let found = Along::new(heights, self.tolerances, self.clip);
+                let found = found.within(&self.segments, &self.live);
+                (found.roots, found.undecided)
+            } else {
+                let found = Piercing::new(&self.segments, other, self.tolerances, self.clip);
+                let found = found.within(&self.live);
+                (found.roots, found.undecided)
+            };
+            self.undecided += undecided;
+            for root in roots {
                 match self.refine(sheet, &root) {
                     Some(triple) => {
                         cuts.push(triple.t);
@@ -190,31 +202,22 @@ impl<'a> Thirds<'a> {
         } = self;
         let sheets = [crossing.sheets[0], crossing.sheets[1], third].map(|at| &regions.sheets[at]);
         let value = crossing.branch.value(root.t);
-        let mut q = [value[3], value[4], value[5], value[6], root.at.x, root.at.y];
-        for _ in 0..10 {
-            let jets = [0, 1, 2].map(|k| sheets[k].first_jet(q[2 * k], q[2 * k + 1]));
-            let (matrix, right) = equations(&jets);
-            let step = solve(matrix, right)?;
-            for i in 0..6 {
-                q[i] += step[i];
-            }
-            let residual: f64 = right.iter().map(|r| r.abs()).sum();
-            let moved = (jets[0].1 * step[0] + jets[0].2 * step[1]).length();
-            if residual < 2.0 * tolerances.residual && moved < tolerances.step {
-                let point = sheets[0].point(q[0], q[1]);
-                let near = point.distance(root.point) < 1e-3 * tolerances.scale;
-                let (t, distance) = crossing.branch.project(point);
-                let triple = Triple {
-                    crossing: self.at,
-                    sheet: third,
-                    t,
-                    point,
-                    q: [q[0], q[1], q[2], q[3]],
-                };
-                return (near && distance < MATCH * tolerances.scale).then_some(triple);
-            }
-        }
-        None
+        let mut common = Common {
+            sheets,
+            q: [value[3], value[4], value[5], value[6], root.at.x, root.at.y],
+        };
+        let point = common.find(tolerances)?;
+        let near = point.distance(root.point) < 1e-3 * tolerances.scale;
+        let (t, distance) = crossing.branch.project(point);
+        let [q @ .., _, _] = common.q;
+        let triple = Triple {
+            crossing: self.at,
+            sheet: third,
+            t,
+            point,
+            q,
+        };
+        (near && distance < MATCH * tolerances.scale).then_some(triple)
     }
 }
 
@@ -224,22 +227,4 @@ fn bounds(segments: &[Segment], stretches: &[[f64; 2]]) -> Bounds {
         .iter()
         .filter(|segment| meets(segment.t, stretches));
     own.fold(Bounds::EMPTY, |all, segment| all.and(*segment.bounds()))
-}
-
-/// Newton's system for the common point of three sheets: the first one's gaps to both others.
-fn equations(jets: &[(DVec3, DVec3, DVec3); 3]) -> ([[f64; 6]; 6], [f64; 6]) {
-    let mut matrix = [[0.0; 6]; 6];
-    let mut right = [0.0; 6];
-    for (block, other) in [1, 2].into_iter().enumerate() {
-        let gap = jets[0].0 - jets[other].0;
-        for i in 0..3 {
-            let row = 3 * block + i;
-            matrix[row][0] = jets[0].1[i];
-            matrix[row][1] = jets[0].2[i];
-            matrix[row][2 * other] = -jets[other].1[i];
-            matrix[row][2 * other + 1] = -jets[other].2[i];
-            right[row] = -gap[i];
-        }
-    }
-    (matrix, right)
 }
