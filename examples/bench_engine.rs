@@ -37,13 +37,13 @@ mod timed {
     use std::path::Path;
     use std::time::Instant;
 
-    use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, proof};
+    use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, Subject, proof};
     use clinothem::export::brep;
     use clinothem::export::report::{Parts, Report};
     use clinothem::model::Model;
-    use clinothem::model::owner::Owners;
     use clinothem::model::plan::AssemblyPlan;
     use clinothem::model::realisation::Realisation;
+    use clinothem::model::selection::Selection;
     use serde_json::{Map, Value, json};
 
     pub(crate) fn run(
@@ -59,16 +59,20 @@ mod timed {
             seed: model.seed,
         };
         let started = Instant::now();
-        let plan = AssemblyPlan::new(realisation)?;
-        let owners = Owners::new(realisation)?;
-        let made = assembly::assemble(&plan, &owners, &options, &Cancel::new(), &|_, _| ())?;
+        let subject = Subject::new(realisation.clone())?;
+        let again = |step: f64| Realisation::by_age(model, &Selection::default(), step);
+        let (subject, made) =
+            assembly::assemble(subject, &again, &options, &Cancel::new(), &|_, _| ())?;
         let seconds = started.elapsed().as_secs_f64();
+        let Subject {
+            realisation, plan, ..
+        } = &subject;
         // Before the report and the file, which are in neither time nor memory.
-        let mut result = result(&plan, &made, seconds);
+        let mut result = result(plan, &made, seconds);
         let report = Report::new(Parts {
             model,
             realisation,
-            plan: &plan,
+            plan,
             assembly: &made,
             level: options.proof,
         });

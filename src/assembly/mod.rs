@@ -18,8 +18,9 @@ pub mod worker;
 
 use std::time::{Duration, Instant};
 
-use crate::model::owner::Owners;
-use crate::model::plan::AssemblyPlan;
+use crate::model::owner::{Owners, OwnersError};
+use crate::model::plan::{AssemblyPlan, PlanError};
+use crate::model::realisation::{Realisation, RealisationError};
 pub use kernel::Cancel;
 use measure::Measured;
 use partitioned::Partitioned;
@@ -197,17 +198,68 @@ struct Candidate {
     alerts: Vec<String>,
 }
 
-/// Assembles a plan and proves the result against the point evaluator.
+/// A realisation with what it takes to assemble it and to prove the result.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The realisation.
+    pub realisation: Realisation,
+    /// What the kernel has to do.
+    pub plan: AssemblyPlan,
+    /// The point evaluator.
+    pub owners: Owners,
+}
+
+/// Why a realisation cannot be assembled at all.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SubjectError {
+    /// No plan can be made.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// A body has no inside.
+    #[error(transparent)]
+    Owners(#[from] OwnersError),
+}
+
+impl Subject {
+    /// Plans a realisation, and prepares its point evaluator.
+    pub fn new(realisation: Realisation) -> Result<Self, SubjectError> {
+        Ok(Self {
+            plan: AssemblyPlan::new(&realisation)?,
+            owners: Owners::new(&realisation)?,
+            realisation,
+        })
+    }
+
+    /// The same with contacts decided by age.
+    fn by_age(again: Again<'_>, step: f64) -> Result<Self, String> {
+        let realisation = again(step).map_err(|error| error.to_string())?;
+        let mut subject = Self::new(realisation).map_err(|error| error.to_string())?;
+        subject.plan.decisions.push(format!(
+            "contacts that coincide are decided by age: a younger horizon lies {step:.1e} m lower for each older one, a body is \
+             {step:.1e} m shallower and longer than each older one that it may meet"
+        ));
+        Ok(subject)
+    }
+}
+
+/// The same realisation, with contacts decided by age in steps of some size (m): see [`Realisation::by_age`].
+pub type Again<'a> = &'a dyn Fn(f64) -> Result<Realisation, RealisationError>;
+
+/// Steps by which coinciding contacts are moved apart, as fractions of the domain's diagonal: far below any geology, above
+/// what curves are exact to.
+const STEPS: [f64; 3] = [1e-9, 1e-8, 1e-7];
+
+/// Assembles a realisation and proves the result against the point evaluator. Returns what was assembled, too: where contacts
+/// coincide that is not the realisation given, but one by age.
 pub fn assemble(
-    plan: &AssemblyPlan,
-    owners: &Owners,
+    subject: Subject,
+    again: Again<'_>,
     options: &Options,
     cancel: &Cancel,
     progress: &(dyn Fn(Stage, f64) + Sync),
-) -> Result<Assembly, AssemblyError> {
+) -> Result<(Subject, Assembly), AssemblyError> {
     let mut run = Run {
-        plan,
-        owners,
+        subject,
         options,
         cancel,
         progress,
@@ -218,10 +270,31 @@ pub fn assemble(
         for remedy in &partitioned::REMEDIES {
             let made = run.timed(|run| run.partition(remedy))?;
             if let Some(assembly) = run.judge(made)? {
-                return Ok(assembly);
+                return Ok((run.subject, assembly));
             }
         }
+        let given = run.subject.clone();
+        let size = (given.plan.high() - given.plan.low()).length();
+        for step in STEPS {
+            match Subject::by_age(again, step * size) {
+                Ok(subject) => run.subject = subject,
+                Err(why) => {
+                    run.failed.push(Failed {
+                        engine: Engine::Partition,
+                        remedy: partitioned::BY_AGE.name,
+                        why,
+                    });
+                    continue;
+                }
+            }
+            let made = run.timed(|run| run.partition(&partitioned::BY_AGE))?;
+            if let Some(assembly) = run.judge(made)? {
+                return Ok((run.subject, assembly));
+            }
+        }
+        run.subject = given;
     }
+    let plan = &run.subject.plan;
     if options.engine != Engine::Partition && plan.has_sides() {
         run.failed.push(Failed {
             engine: Engine::Occt,
@@ -232,7 +305,7 @@ pub fn assemble(
         for remedy in &fused::LADDER {
             let made = run.timed(|run| run.fuse(remedy))?;
             if let Some(assembly) = run.judge(made)? {
-                return Ok(assembly);
+                return Ok((run.subject, assembly));
             }
         }
     }
@@ -241,8 +314,7 @@ pub fn assemble(
 
 /// The state of an assembly under way.
 struct Run<'a> {
-    plan: &'a AssemblyPlan,
-    owners: &'a Owners,
+    subject: Subject,
     options: &'a Options,
     cancel: &'a Cancel,
     progress: &'a (dyn Fn(Stage, f64) + Sync),
@@ -266,7 +338,13 @@ impl Run<'_> {
 
     fn partition(&self, remedy: &partitioned::Remedy) -> Result<Attempt, AssemblyError> {
         (self.progress)(Stage::Assemble, 0.0);
-        let made = partitioned::attempt(self.plan, self.owners, remedy, self.options, self.cancel)?;
+        let made = partitioned::attempt(
+            &self.subject.plan,
+            &self.subject.owners,
+            remedy,
+            self.options,
+            self.cancel,
+        )?;
         (self.progress)(Stage::Assemble, 1.0);
         Ok(made.map(|made: Partitioned| Candidate {
             engine: Engine::Partition,
@@ -282,12 +360,18 @@ impl Run<'_> {
 
     fn fuse(&self, remedy: &fused::Remedy) -> Result<Attempt, AssemblyError> {
         let share = |fraction| (self.progress)(Stage::Assemble, fraction);
-        let made = fused::attempt(self.plan, remedy, self.options, self.cancel, &share)?;
+        let made = fused::attempt(
+            &self.subject.plan,
+            remedy,
+            self.options,
+            self.cancel,
+            &share,
+        )?;
         let fused = match made {
             Ok(fused) => fused,
             Err(failed) => return Ok(Err(failed)),
         };
-        let measured = Measured::of_solids(&fused.solids, self.plan)
+        let measured = Measured::of_solids(&fused.solids, &self.subject.plan)
             .map_err(|error| AssemblyError::Measure(error.to_string()))?;
         Ok(Ok(Candidate {
             engine: Engine::Occt,
@@ -316,8 +400,8 @@ impl Run<'_> {
             solids: &candidate.solids,
             measured: &candidate.measured,
             evidence: &candidate.evidence,
-            plan: self.plan,
-            owners: self.owners,
+            plan: &self.subject.plan,
+            owners: &self.subject.owners,
             options: self.options,
         }
         .prove(self.cancel, &share);

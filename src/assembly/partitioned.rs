@@ -41,6 +41,12 @@ pub(super) const REMEDIES: [Remedy; 2] = [
     },
 ];
 
+/// The usual tolerance, of a realisation whose contacts are decided by age.
+pub(super) const BY_AGE: Remedy = Remedy {
+    name: "contacts by age",
+    tightness: 1.0,
+};
+
 /// What the partition has made.
 pub(super) struct Partitioned {
     pub(super) solids: Solids,

@@ -8,10 +8,12 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, print, summary};
-use crate::assembly::{self, Assembly, AssemblyError, Cancel, proof, worker};
+use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
 use crate::export::report::{Parts, Report};
 use crate::export::{ExportError, brep, file, step, table};
-use crate::model::plan::AssemblyPlan;
+use crate::model::Model;
+use crate::model::realisation::Realisation;
+use crate::model::selection::Selection;
 
 /// Build watertight solids and write them as STEP, with a report and the proof that they are right.
 ///
@@ -130,9 +132,25 @@ impl EngineArgs {
 
 /// A model with its proven solids.
 pub(super) struct Built {
-    pub(super) loaded: Loaded,
-    pub(super) plan: AssemblyPlan,
+    pub(super) model: Model,
+    /// What was assembled.
+    pub(super) subject: Subject,
     pub(super) assembly: Assembly,
+    selection: Selection,
+    /// Seconds per stage.
+    timings: Vec<(&'static str, Duration)>,
+}
+
+impl Built {
+    /// What was assembled, without the solids.
+    pub(super) fn into_loaded(self) -> Loaded {
+        Loaded {
+            model: self.model,
+            realisation: self.subject.realisation,
+            selection: self.selection,
+            timings: self.timings,
+        }
+    }
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -148,9 +166,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let progress = Progress::new(args.engine.quiet || args.json);
     let built = assemble(loaded, &args.engine, &cancel, &progress)?;
     let report = Report::new(Parts {
-        model: &built.loaded.model,
-        realisation: &built.loaded.realisation,
-        plan: &built.plan,
+        model: &built.model,
+        realisation: &built.subject.realisation,
+        plan: &built.subject.plan,
         assembly: &built.assembly,
         level: args.engine.level(),
     });
@@ -177,16 +195,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Plans, assembles and proves.
 pub(super) fn assemble(
-    mut loaded: Loaded,
+    loaded: Loaded,
     engine: &EngineArgs,
     cancel: &Cancel,
     progress: &Progress,
 ) -> Result<Built, Failure> {
     let started = Instant::now();
-    let wrong = |error: &dyn std::fmt::Display| Failure::Wrong(error.to_string());
-    let plan = AssemblyPlan::new(&loaded.realisation).map_err(|error| wrong(&error))?;
-    let owners = loaded.owners()?;
-    loaded.timings.push(("plan", started.elapsed()));
+    let Loaded {
+        model,
+        realisation,
+        mut timings,
+        selection,
+    } = loaded;
+    let subject = Subject::new(realisation).map_err(|error| Failure::Wrong(error.to_string()))?;
+    timings.push(("plan", started.elapsed()));
     let program = std::env::current_exe().map_err(|error| {
         Failure::Surroundings(format!("the program cannot find itself: {error}"))
     })?;
@@ -198,18 +220,21 @@ pub(super) fn assemble(
         }),
         threads: engine.threads.map_or(0, usize::from),
         proof: engine.level(),
-        seed: loaded.model.seed,
+        seed: model.seed,
     };
-    let assembled = assembly::assemble(&plan, &owners, &options, cancel, &|stage, fraction| {
+    let again = |step: f64| Realisation::by_age(&model, &selection, step);
+    let assembled = assembly::assemble(subject, &again, &options, cancel, &|stage, fraction| {
         progress.share(stage, fraction);
     });
     match assembled {
-        Ok(assembly) => {
-            loaded.timings.extend_from_slice(&assembly.timings);
+        Ok((subject, assembly)) => {
+            timings.extend_from_slice(&assembly.timings);
             Ok(Built {
-                loaded,
-                plan,
+                model,
+                subject,
                 assembly,
+                selection,
+                timings,
             })
         }
         Err(error) => {
@@ -279,7 +304,7 @@ impl Output<'_> {
         let result = self
             .write_files(staging.path(), built, report)
             .and_then(|mut names| {
-                let mut timings = built.loaded.timings.clone();
+                let mut timings = built.timings.clone();
                 timings.push(("files", writing.elapsed()));
                 let run = run_json(&timings, started.elapsed());
                 std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
@@ -308,7 +333,7 @@ impl Output<'_> {
             built.assembly.enclosing_volume(),
             formats.contains(&Format::StepShared),
         ) {
-            let name = &built.plan.names[volume];
+            let name = &built.subject.plan.names[volume];
             print::err(&format!(
                 "note: {name} wholly encloses another volume, which shared STEP cannot express; BREP is written instead"
             ));
@@ -324,7 +349,7 @@ impl Output<'_> {
         built: &Built,
         report: &Report,
     ) -> Result<Vec<String>, Failure> {
-        let (model, realisation) = (&built.loaded.model, &built.loaded.realisation);
+        let (model, realisation) = (&built.model, &built.subject.realisation);
         let protocol = self.args.step_schema.into();
         let mut names = Vec::new();
         for format in &self.formats(built) {

@@ -7,12 +7,19 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use crate::model::owner::Owners;
 use crate::model::realisation::Realisation;
+use crate::model::selection::Selection;
 use crate::model::{Model, ReadError, Source};
 
 /// A model with its draws made.
 pub(super) struct Loaded {
     pub(super) model: Model,
     pub(super) realisation: Realisation,
+    /// What takes part.
+    #[cfg_attr(
+        not(feature = "occt"),
+        expect(dead_code, reason = "only builds realise a model again")
+    )]
+    pub(super) selection: Selection,
     /// Seconds per stage.
     #[cfg_attr(
         not(feature = "occt"),
@@ -49,12 +56,14 @@ pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
     let model = model(args, json)?;
     let reading = started.elapsed();
     let started = Instant::now();
-    let realisation = Realisation::new(&model, &args.selection())
-        .map_err(|error| Failure::Wrong(error.to_string()))?;
+    let selection = args.selection();
+    let realisation =
+        Realisation::new(&model, &selection).map_err(|error| Failure::Wrong(error.to_string()))?;
     let timings = vec![("model file", reading), ("surfaces", started.elapsed())];
     Ok(Loaded {
         model,
         realisation,
+        selection,
         timings,
     })
 }

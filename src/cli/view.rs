@@ -170,9 +170,9 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
     let progress = Progress::new(args.engine.quiet);
     let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
-    let deflection = DEFLECTION * built.plan.low().distance(built.plan.high());
+    let deflection = DEFLECTION * built.subject.plan.low().distance(built.subject.plan.high());
     let meshes = match args.style {
-        Style::Sheets => mesh::triangulate_sheets(&built.assembly, &built.plan, deflection),
+        Style::Sheets => mesh::triangulate_sheets(&built.assembly, &built.subject.plan, deflection),
         Style::Solids | Style::Block => mesh::triangulate(&built.assembly, deflection),
     }
     .map_err(|error| Failure::Surroundings(error.to_string()))?;
@@ -188,5 +188,5 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
             opacity: 1.0,
         })
         .collect();
-    Ok((parts, built.loaded))
+    Ok((parts, built.into_loaded()))
 }

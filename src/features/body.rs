@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::ellipsoid::Ellipsoid;
 use super::side::{Side, points_bounds};
@@ -104,6 +104,28 @@ impl Body {
     }
 }
 
+/// A tiny change of a body, by which contacts that coincide come apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nudge {
+    /// How much the lowest point rises; the top stays (m).
+    pub rise: f64,
+    /// How much farther out the ends of the longest side in plan are (m).
+    pub reach: f64,
+    /// By how much all of it moves in plan (m).
+    pub shift: DVec2,
+}
+
+impl Body {
+    /// The body a little shallower, longer and elsewhere; sides stay as they are.
+    pub fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
+        Ok(match self {
+            Self::Trough(trough) => Self::Trough(trough.nudged(nudge)?),
+            Self::Ellipsoid(ellipsoid) => Self::Ellipsoid(ellipsoid.nudged(nudge)?),
+            Self::Side(side) => Self::Side(Arc::clone(side)),
+        })
+    }
+}
+
 /// A trough: a base with u across and v along, closed by a top ruled between its two rims.
 ///
 /// The rims (u = first and last) are the *same* control points in both sheets, so that base and top
@@ -190,6 +212,29 @@ impl Trough {
             (Role::Start, end(first)?),
             (Role::End, end(last)?),
         ])
+    }
+
+    /// See [`Body::nudged`]. One affine map moves all control points, so sections stay flat and upright, and a level top
+    /// level.
+    fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
+        let net = self.base.net();
+        let (low, high) = points_bounds(net);
+        let (middle, size) = (0.5 * (low + high).xy(), high - low);
+        let (longer, flatter) = (
+            2.0 * nudge.reach / size.xy().max_element(),
+            nudge.rise / size.z,
+        );
+        let moved = net.iter().map(|p| {
+            let at = p.xy() + longer * (p.xy() - middle) + nudge.shift;
+            at.extend(p.z + flatter * (high.z - p.z))
+        });
+        let (u, v) = (self.base.knots_u().clone(), self.base.knots_v().clone());
+        let base = if self.base.is_rational() {
+            Surface::rational(u, v, moved.collect(), self.base.weights().to_vec())?
+        } else {
+            Surface::new(u, v, moved.collect())?
+        };
+        Self::new(base, self.sections.clone())
     }
 
     /// The part between two sections, with their v.

@@ -7,6 +7,7 @@
 
 use glam::DVec3;
 
+use super::body::Nudge;
 use super::trajectory::azimuth_vector;
 use crate::nurbs::{KnotError, KnotVector, Surface, SurfaceError};
 
@@ -137,6 +138,23 @@ impl Ellipsoid {
     /// lower pole to the upper one, the normal outwards.
     pub fn skin(&self) -> &Surface {
         &self.skin
+    }
+
+    /// See [`super::body::Body::nudged`]: smaller by the rise along its shortest axis, and moved.
+    pub(super) fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
+        let shortest = self
+            .axes
+            .iter()
+            .fold(f64::INFINITY, |least, axis| least.min(axis.length()));
+        let (scale, shift) = (1.0 - nudge.rise / shortest, nudge.shift.extend(0.0));
+        let moved = |p: &DVec3| self.center + shift + scale * (*p - self.center);
+        let (u, v) = (self.skin.knots_u().clone(), self.skin.knots_v().clone());
+        let net = self.skin.net().iter().map(moved).collect();
+        Ok(Self {
+            skin: Surface::rational(u, v, net, self.skin.weights().to_vec())?,
+            center: self.center + shift,
+            axes: self.axes.map(|axis| scale * axis),
+        })
     }
 
     /// Its centre.

@@ -213,6 +213,28 @@ impl Horizon {
         })
     }
 
+    /// The horizon lower by a distance (m).
+    #[must_use]
+    pub fn lowered(&self, by: f64) -> Self {
+        let shape = match &self.shape {
+            Shape::Level(level) => Shape::Level(level - by),
+            Shape::Plane { through, slope } => Shape::Plane {
+                through: *through - by * DVec3::Z,
+                slope: *slope,
+            },
+            Shape::Lattice {
+                lattice,
+                through,
+                slope,
+            } => Shape::Lattice {
+                lattice: lattice.clone(),
+                through: *through - by * DVec3::Z,
+                slope: *slope,
+            },
+        };
+        Self { shape }
+    }
+
     /// The height at a place (m).
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let at = DVec2::new(x, y);

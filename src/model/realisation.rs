@@ -9,6 +9,7 @@ mod listing;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::DVec2;
 use rayon::prelude::*;
 
 use listing::{Listing, Planned, extent};
@@ -18,7 +19,7 @@ use super::interior::Interior;
 use super::rules::{Rules, VolumeRules};
 use super::selection::Selection;
 use super::spec::Model;
-use crate::features::body::Body;
+use crate::features::body::{Body, Nudge};
 use crate::features::extent::Extent;
 
 /// Most attempts at one instance before its distributions are called impossible.
@@ -110,7 +111,18 @@ impl RealisationError {
 impl Realisation {
     /// Draws and builds all instances of the selected features.
     pub fn new(model: &Model, selection: &Selection) -> Result<Self, RealisationError> {
-        let mut list = Listing::new(model, selection)?;
+        Self::by_age(model, selection, 0.0)
+    }
+
+    /// The same, in which contacts that coincide are decided by age: each horizon lies one step (m) lower than it would
+    /// below the one before it, so that a bed of no thickness is absent; each body is a step shallower than the older ones
+    /// that it may meet, and as much longer.
+    pub fn by_age(
+        model: &Model,
+        selection: &Selection,
+        step: f64,
+    ) -> Result<Self, RealisationError> {
+        let mut list = Listing::new(model, selection, step)?;
         list.instances(None, "", "")?;
         let Listing {
             volumes,
@@ -134,6 +146,9 @@ impl Realisation {
                 *counts.entry((whose, reason)).or_default() += 1;
             }
             instances.push(instance);
+        }
+        if step > 0.0 {
+            move_apart(&mut instances, &volumes, step)?;
         }
         let rejections = counts
             .into_iter()
@@ -160,6 +175,45 @@ impl Realisation {
     pub fn volume(&self, name: &str) -> Option<usize> {
         self.volumes.iter().position(|volume| volume.name == name)
     }
+}
+
+/// Gives each body a change of its own among those that it may meet.
+fn move_apart(
+    instances: &mut [Instance],
+    volumes: &[VolumeRules],
+    step: f64,
+) -> Result<(), RealisationError> {
+    /// Turns of neighbouring ranks, as far from each other as they can be (the golden angle, rad).
+    const TURN: f64 = 2.399_963_229_728_653;
+    /// How far bodies move in plan, in steps; their ends move farther.
+    const ASIDE: f64 = 0.3;
+    let boxes: Vec<_> = instances.iter().map(|one| one.body.bounds()).collect();
+    let mut ranks = vec![0_u32; instances.len()];
+    for at in 0..instances.len() {
+        if matches!(instances[at].body, Body::Side(_)) {
+            continue;
+        }
+        let (low, high) = boxes[at];
+        let meets = |older: &usize| {
+            let (from, to) = boxes[*older];
+            let slack = step * f64::from(ranks[*older] + 2);
+            from.cmple(high + slack).all() && (low - slack).cmple(to).all()
+        };
+        let older = (0..at).filter(meets).map(|older| ranks[older]).max();
+        ranks[at] = older.unwrap_or(0) + 1;
+        let rank = f64::from(ranks[at]);
+        let nudge = Nudge {
+            rise: rank * step,
+            reach: rank * step,
+            shift: ASIDE * step * DVec2::from_angle(rank * TURN),
+        };
+        let body = instances[at].body.nudged(&nudge);
+        instances[at].body = body.map_err(|error| RealisationError::Impossible {
+            volume: volumes[instances[at].volume].name.clone(),
+            reason: error.to_string(),
+        })?;
+    }
+    Ok(())
 }
 
 /// Draws something that is no single instance, again and again until it is possible; with the reasons of what was

@@ -9,7 +9,7 @@
 
 mod checked;
 
-use clinothem::assembly::{self, Assembly, AssemblyError, Cancel, Engine, Options, proof};
+use clinothem::assembly::{self, Assembly, AssemblyError, Cancel, Engine, Options, Subject, proof};
 use clinothem::model::Model;
 use clinothem::model::owner::Owners;
 use clinothem::model::plan::AssemblyPlan;
@@ -46,9 +46,15 @@ impl Built {
         options: &Options,
     ) -> Result<Self, AssemblyError> {
         let realisation = Realisation::new(&model, selection).unwrap();
-        let owners = Owners::new(&realisation).unwrap();
-        let plan = AssemblyPlan::new(&realisation).unwrap();
-        let assembly = assembly::assemble(&plan, &owners, options, &Cancel::new(), &|_, _| ())?;
+        let subject = Subject::new(realisation).unwrap();
+        let again = |step: f64| Realisation::by_age(&model, selection, step);
+        let (subject, assembly) =
+            assembly::assemble(subject, &again, options, &Cancel::new(), &|_, _| ())?;
+        let Subject {
+            realisation,
+            plan,
+            owners,
+        } = subject;
         Ok(Self {
             model,
             realisation,

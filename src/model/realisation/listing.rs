@@ -56,6 +56,7 @@ impl<'a> Listing<'a> {
     pub(super) fn new(
         model: &'a Model,
         selection: &'a Selection,
+        step: f64,
     ) -> Result<Self, RealisationError> {
         let background = VolumeRules {
             name: "background".to_owned(),
@@ -74,9 +75,10 @@ impl<'a> Listing<'a> {
         for (index, feature) in model.features.iter().enumerate() {
             if let FeatureKind::Horizon(spec) = &feature.kind {
                 let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
-                let (drawn, reasons) = draw_whole(model, &feature.id, "1", draw)?;
+                let ((horizon, drawn), reasons) = draw_whole(model, &feature.id, "1", draw)?;
                 rejected.extend(reasons.into_iter().map(|reason| (Some(index), reason)));
-                horizons.insert(index, drawn);
+                let age = (horizons.len() + 1) as f64;
+                horizons.insert(index, (horizon.lowered(age * step), drawn));
             }
         }
         let mut list = Self {
@@ -95,6 +97,10 @@ impl<'a> Listing<'a> {
             list.bound("base", model.domain.base.as_ref())?,
             list.bound("top", model.domain.top.as_ref())?,
         ];
+        // Everything is older than the top. A level one is given by a number, and stays.
+        if let Some(top) = list.bounds[1].as_mut().filter(|top| top.level().is_none()) {
+            *top = top.lowered((list.horizons.len() + 1) as f64 * step);
+        }
         Ok(list)
     }
 
