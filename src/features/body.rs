@@ -107,7 +107,7 @@ impl Body {
 /// A tiny change of a body, by which contacts that coincide come apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nudge {
-    /// How much the lowest point rises; the top stays (m).
+    /// How much the lowest point rises, and each side moves in; the top stays level where it is (m).
     pub rise: f64,
     /// How much farther out the ends of the longest side in plan are (m).
     pub reach: f64,
@@ -214,8 +214,7 @@ impl Trough {
         ])
     }
 
-    /// See [`Body::nudged`]. One affine map moves all control points, so sections stay flat and upright, and a level top
-    /// level.
+    /// See [`Body::nudged`]. Sections stay flat and upright, and a level top level.
     fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
         let net = self.base.net();
         let (low, high) = points_bounds(net);
@@ -224,9 +223,13 @@ impl Trough {
             2.0 * nudge.reach / size.xy().max_element(),
             nudge.rise / size.z,
         );
-        let moved = net.iter().map(|p| {
-            let at = p.xy() + longer * (p.xy() - middle) + nudge.shift;
-            at.extend(p.z + flatter * (high.z - p.z))
+        let (rows, columns) = (self.base.knots_u().count(), self.base.knots_v().count());
+        let moved = net.iter().enumerate().map(|(k, p)| {
+            let rims = [k % columns, (rows - 1) * columns + k % columns].map(|at| net[at].xy());
+            let (centre, width) = (0.5 * (rims[0] + rims[1]), rims[0].distance(rims[1]));
+            let narrower = 2.0 * nudge.rise / width;
+            let at = p.xy() - narrower * (p.xy() - centre) + longer * (p.xy() - middle);
+            (at + nudge.shift).extend(p.z + flatter * (high.z - p.z))
         });
         let (u, v) = (self.base.knots_u().clone(), self.base.knots_v().clone());
         let base = if self.base.is_rational() {
