@@ -10,7 +10,6 @@ mod bodies;
 
 use std::f64::consts::PI;
 use std::sync::{Mutex, OnceLock};
-use std::time::{Duration, Instant};
 
 use bodies::measured::{self, close, cut, volumes};
 use bodies::{Course, cylinder_topology, ellipsoid_topology};
@@ -243,18 +242,19 @@ fn serial_and_parallel_runs_give_the_same_bytes() {
 }
 
 #[test]
-fn a_partition_that_is_cancelled_while_it_runs_returns_soon() {
+fn a_partition_that_is_cancelled_while_it_runs_does_not_go_on_to_its_end() {
     let cancel = Cancel::new();
-    let asked = Mutex::new(None);
+    let furthest = Mutex::new(0.0_f64);
     let result = partition(&belt(), &PartitionOptions::default(), &cancel, &|f| {
-        if f > 0.1 && !cancel.is_cancelled() {
-            *asked.lock().unwrap() = Some(Instant::now());
+        let mut furthest = furthest.lock().unwrap();
+        *furthest = furthest.max(f);
+        if f > 0.1 {
             cancel.cancel();
         }
     });
     assert_eq!(result.unwrap_err(), BridgeError::Cancelled);
-    let waited = asked.into_inner().unwrap().unwrap().elapsed();
-    assert!(waited < Duration::from_secs(1), "{waited:?}");
+    let furthest = furthest.into_inner().unwrap();
+    assert!((0.1..0.9).contains(&furthest), "it went on to {furthest}");
 }
 
 #[test]

@@ -68,7 +68,7 @@ impl<'t> NodeDeserializer<'_, 't> {
         let found = self.reader.tree.describe(self.node);
         let remedy = match (self.value(), what) {
             (Value::Null, _) => "leave the key out instead".to_owned(),
-            (Value::Text(text), "a number" | "a whole number") => number_remedy(text),
+            (Value::Text(text), "a number" | "a whole number") => number_remedy(text, LENGTHS),
             (Value::Text(text), "true or false") if ["true", "false"].contains(&text.as_str()) => {
                 format!("remove the quotes: {text}")
             }
@@ -124,8 +124,11 @@ impl<'t> NodeDeserializer<'_, 't> {
     }
 }
 
-/// What to do about a text where a number is wanted.
-pub(crate) fn number_remedy(text: &str) -> String {
+/// The unit of most numbers.
+pub(crate) const LENGTHS: &str = "lengths are in metres";
+
+/// What to do about a text where a number is wanted; `unit` says in what it is written.
+pub(crate) fn number_remedy(text: &str, unit: &str) -> String {
     let digits: String = text
         .trim()
         .chars()
@@ -133,7 +136,7 @@ pub(crate) fn number_remedy(text: &str) -> String {
         .collect();
     let digits = digits.trim_end_matches(['e', 'E']);
     if digits.parse::<f64>().is_ok() {
-        format!("write the number without quotes or unit: {digits} (lengths are in metres)")
+        format!("write the number without quotes or unit: {digits} ({unit})")
     } else {
         "write a number, without quotes".to_owned()
     }

@@ -1,6 +1,6 @@
 //! Quantities and profiles: their shapes, their distributions, and whether what they can give is possible.
 
-use crate::model::deserialize::number_remedy;
+use crate::model::deserialize::{LENGTHS, number_remedy};
 use crate::model::distribution::{Distribution, DistributionError};
 use crate::model::expression::{Expression, ExpressionError};
 use crate::model::file::{DistributionFile, ExpressionFile};
@@ -154,7 +154,7 @@ fn wrong_shape(reader: &Reader<'_>, node: NodeId, what: &str, varies: bool) {
                 quoted(text)
             )
         }
-        Value::Text(text) => number_remedy(text),
+        Value::Text(text) => number_remedy(text, LENGTHS),
         Value::List(elements) => match elements.len() {
             2 => "write { uniform = [minimum, maximum] } for a range".to_owned(),
             3 => "write { triangular = [minimum, most likely, maximum] }".to_owned(),

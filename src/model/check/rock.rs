@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use super::Checker;
 use super::surface::Extent;
+use crate::model::defects::Defect;
+use crate::model::deserialize::number_remedy;
 use crate::model::file::{DomainFile, FaciesFile};
 use crate::model::read::{Any, Field};
 use crate::model::spec::{Domain, Facies, Feature, FeatureKind, Property, Rgb};
@@ -128,7 +130,7 @@ impl Checker<'_> {
         let Entry { key, node, .. } = entry;
         let before = self.reader.found();
         if !is_id(key) {
-            self.reader.report(crate::model::defects::Defect::new(
+            self.reader.report(Defect::new(
                 entry.key_span,
                 format!("{} is not a name for a facies", quoted(key)),
                 "use letters, digits, `-` and `_`",
@@ -188,23 +190,24 @@ impl Checker<'_> {
         let mut properties = Vec::new();
         for entry in self.reader.tree.entries(facies) {
             let key = entry.key.as_str();
+            let value = self.reader.tree.value(entry.node);
+            let numeric = matches!(value, Value::Integer(_) | Value::Float(_) | Value::List(_));
             if !known.contains(&key) {
-                let property_like = matches!(
-                    self.reader.tree.value(entry.node),
-                    Value::Integer(_) | Value::Float(_) | Value::List(_)
-                );
-                if !property_like || slip(key, &known) || !is_id(key) {
-                    let what = format!("facies {}", quoted(name));
-                    self.reader.unknown_key(entry, &known, &what);
+                if !numeric || slip(key, &known) || !is_id(key) {
+                    self.unknown_property(entry, &known, name);
                     continue;
                 }
             } else if !["porosity", "permeability"].contains(&key) {
                 continue;
             }
-            let value = match self.reader.tree.value(entry.node) {
-                // A wrong type is reported where the known keys are read.
-                Value::Integer(_) | Value::Float(_) | Value::List(_) => self.property(entry.node),
-                _ => None,
+            let value = if numeric {
+                self.property(entry.node)
+            } else {
+                // A porosity of a wrong type is reported where the known keys are read.
+                if key == "permeability" {
+                    self.no_permeability(entry.node, name);
+                }
+                None
             };
             match (key, value) {
                 ("permeability", Some(Property::Scalar(k))) => {
@@ -215,6 +218,47 @@ impl Checker<'_> {
             }
         }
         properties
+    }
+
+    /// A key that is neither known nor has a rock property's value.
+    fn unknown_property(&self, entry: &Entry, known: &[&str], facies: &str) {
+        let what = format!("facies {}", quoted(facies));
+        if slip(&entry.key, known) || !is_id(&entry.key) {
+            self.reader.unknown_key(entry, known, &what);
+            return;
+        }
+        let found = self.reader.tree.describe(entry.node);
+        let key = suggest::code(&entry.key);
+        let path = self.reader.hint(|| self.reader.path(entry.node));
+        let defect = Defect::new(
+            entry.key_span,
+            format!("unknown key {key} in {what}, with {found}"),
+            format!(
+                "a rock property of your own is a number or [x, y, z]; the other keys here are {}",
+                suggest::list(known)
+            ),
+        );
+        self.reader.report(defect.with_path(path));
+    }
+
+    fn no_permeability(&self, node: NodeId, name: &str) {
+        const FORM: &str = "a number or [x, y, z]";
+        let remedy = match self.reader.tree.value(node) {
+            Value::Text(text) => match text.trim_end_matches(char::is_alphabetic) {
+                bare if ["", "mD"].contains(&&text[bare.len()..]) => {
+                    number_remedy(text, "permeability is in millidarcy")
+                }
+                _ => "write millidarcy, without quotes or unit".to_owned(),
+            },
+            Value::Table(_) => "rock properties are not drawn; write one number in millidarcy, or [x, y, z]".to_owned(),
+            _ => "write one number in millidarcy, or [x, y, z]".to_owned(),
+        };
+        let (facies, found) = (quoted(name), self.reader.tree.describe(node));
+        self.reader.wrong(
+            node,
+            format!("expected {FORM} for the permeability of facies {facies}, found {found}"),
+            remedy,
+        );
     }
 
     fn property(&self, node: NodeId) -> Option<Property> {
