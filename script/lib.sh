@@ -60,7 +60,7 @@ find_rust() {
     # shellcheck source=/dev/null
     command -v cargo >/dev/null || { [[ -r $HOME/.cargo/env ]] && . "$HOME/.cargo/env"; } || true
     command -v cargo >/dev/null ||
-        die "no Rust toolchain: install 1.88 or newer as https://rustup.rs says, then run this again"
+        die "no Rust toolchain: install 1.89 or newer as https://rustup.rs says, then run this again"
 }
 
 # Makes the Python environment of the cross-checks, .venv in the root, and names its Python in `python`.

@@ -14,6 +14,7 @@ pub mod measure;
 mod partitioned;
 pub mod proof;
 pub(crate) mod shapes;
+pub mod unfinished;
 pub mod worker;
 
 use std::time::{Duration, Instant};
@@ -152,6 +153,11 @@ pub enum AssemblyError {
         /// What was tried.
         failed: Vec<Failed>,
     },
+    /// The system starts no threads.
+    #[error(
+        "the system starts no threads ({0}); end other programs, or allow more processes (`ulimit -u`)"
+    )]
+    Threads(#[from] rayon::ThreadPoolBuildError),
     /// The child process took too long or could not be used.
     #[error("{source}; the model has {bodies} bodies: {names}")]
     Worker {

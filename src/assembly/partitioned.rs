@@ -73,6 +73,7 @@ pub(super) fn attempt(
     let made = match partition(plan, owners, remedy, options, cancel) {
         Ok(made) => made,
         Err(Trouble::Partition(PartitionError::Stopped)) => return Err(AssemblyError::Cancelled),
+        Err(Trouble::Threads(error)) => return Err(error.into()),
         Err(trouble) => return failed(trouble.to_string()),
     };
     if !made.faults.is_none() {
@@ -106,7 +107,7 @@ enum Trouble {
     Ends(#[from] nurbs::SurfaceError),
     #[error("a raised body is not closed: {0}")]
     Raised(#[from] EnclosureError),
-    #[error("no threads: {0}")]
+    #[error(transparent)]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 

@@ -3,7 +3,7 @@
 //! OpenCASCADE can crash or hang on input that it does not like. The fuse therefore runs in a second
 //! process of this program, so that either is an error with the features' names and never the end of
 //! the run. The job goes in by standard input, progress comes back line by line on standard output, and
-//! the result is a file in a directory of the parent's.
+//! the result is a file in a directory of the parent's. A child whose parent is gone ends too.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::unfinished::{self, Unfinished};
 use super::kernel::{Cancel, FuseError, FuseJob, FuseReport, Solids, fuse};
 
 /// The hidden command by which the program starts itself.
@@ -25,6 +26,15 @@ pub struct Child {
     pub program: PathBuf,
     /// After this the child is ended.
     pub time_limit: Duration,
+}
+
+/// What the names of its folders for results begin with.
+const FOLDERS: &str = "clinothem-";
+
+/// Removes what runs that were killed have left among the temporary files.
+pub fn clear_abandoned() {
+    // Whatever cannot be read or removed is in nobody's way.
+    drop(unfinished::clear(&std::env::temp_dir(), FOLDERS));
 }
 
 /// How often the parent looks for a request to stop.
@@ -64,7 +74,7 @@ pub(crate) fn run(
     cancel: &Cancel,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Outcome {
-    let folder = tempfile::Builder::new().prefix("clinothem-").tempdir()?;
+    let folder = Unfinished::new(&std::env::temp_dir(), FOLDERS)?;
     let result = folder.path().join("fused");
     let mut child = Command::new(&how.program)
         .arg(COMMAND)
@@ -100,17 +110,32 @@ fn supervise(
             "it has no standard input or output".to_owned(),
         ));
     };
+    let length = (bytes.len() as u64).to_le_bytes();
     std::thread::scope(|scope| {
+        let thread = || std::thread::Builder::new();
+        let (fed, _open) = mpsc::channel();
         // A child that dies while it is fed closes its end: its exit status says more than this error.
-        scope.spawn(move || drop(input.write_all(&bytes)));
+        let feed = move || {
+            drop(input.write_all(&length).and_then(|()| input.write_all(&bytes)));
+            // Its input stays open as long as somebody waits for it.
+            drop(fed.send(input));
+        };
         let (send, receive) = mpsc::channel();
-        scope.spawn(move || {
+        let listen = move || {
             for line in BufReader::new(output).lines().map_while(Result::ok) {
                 if send.send(line).is_err() {
                     break;
                 }
             }
-        });
+        };
+        let started_all = thread()
+            .spawn_scoped(scope, feed)
+            .and_then(|_| thread().spawn_scoped(scope, listen));
+        if let Err(error) = started_all {
+            // What was started waits for the child.
+            drop(child.kill());
+            return Err(error.into());
+        }
         loop {
             if cancel.is_cancelled() {
                 drop(child.kill());
@@ -151,10 +176,32 @@ fn read_answer(path: &Path) -> Outcome {
     }
 }
 
+/// A job, after its length in bytes.
+fn read_job(input: &mut impl Read) -> std::io::Result<Vec<u8>> {
+    let mut length = [0; 8];
+    input.read_exact(&mut length)?;
+    let length = u64::from_le_bytes(length);
+    let mut bytes = Vec::new();
+    let read = input.take(length).read_to_end(&mut bytes)?;
+    if read as u64 == length {
+        Ok(bytes)
+    } else {
+        Err(std::io::ErrorKind::UnexpectedEof.into())
+    }
+}
+
+/// Waits for the end of the input, which comes when the parent has ended or wants nothing more, and ends the process: the
+/// kernel may not look at a request to stop for hours.
+fn end_with_the_parent() {
+    let mut rest = Vec::new();
+    drop(std::io::stdin().lock().read_to_end(&mut rest));
+    std::process::exit(1);
+}
+
 /// The child's side: reads a job from standard input, writes the answer to `result`.
 pub fn serve(result: &Path) -> Result<(), WorkerError> {
-    let mut bytes = Vec::new();
-    std::io::stdin().lock().read_to_end(&mut bytes)?;
+    let bytes = read_job(&mut std::io::stdin().lock())?;
+    std::thread::Builder::new().spawn(end_with_the_parent)?;
     let job: FuseJob =
         postcard::from_bytes(&bytes).map_err(|error| WorkerError::Answer(error.to_string()))?;
     let last = std::sync::atomic::AtomicU32::new(0);

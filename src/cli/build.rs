@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, print, summary};
+use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
 use crate::export::report::{Parts, Report};
 use crate::export::{ExportError, brep, file, step, table};
@@ -209,6 +210,7 @@ pub(super) fn assemble(
     } = loaded;
     let subject = Subject::new(realisation).map_err(|error| Failure::Wrong(error.to_string()))?;
     timings.push(("plan", started.elapsed()));
+    worker::clear_abandoned();
     let program = std::env::current_exe().map_err(|error| {
         Failure::Surroundings(format!("the program cannot find itself: {error}"))
     })?;
@@ -241,7 +243,8 @@ pub(super) fn assemble(
             progress.done();
             Err(match error {
                 AssemblyError::Cancelled => Failure::Interrupted,
-                AssemblyError::Worker {
+                AssemblyError::Threads(_)
+                | AssemblyError::Worker {
                     source: worker::WorkerError::Io(_),
                     ..
                 } => Failure::Surroundings(error.to_string()),
@@ -251,7 +254,8 @@ pub(super) fn assemble(
     }
 }
 
-/// A folder may be new, empty or an earlier build's; another one needs force.
+/// A folder may be new, empty or an earlier build's; another one needs force. What builds that were killed have left in it
+/// is removed.
 fn check_folder(folder: &Path, force: bool) -> Result<(), Failure> {
     if !folder.exists() {
         return Ok(());
@@ -262,11 +266,18 @@ fn check_folder(folder: &Path, force: bool) -> Result<(), Failure> {
             "{shown} is a file; name a folder with -o"
         )));
     }
-    let mut entries =
-        std::fs::read_dir(folder).map_err(|error| Failure::file("read", folder, &error))?;
+    let failed = |error: std::io::Error| Failure::file("read", folder, &error);
+    let found = unfinished::clear(folder, UNFINISHED).map_err(failed)?;
+    let entries = std::fs::read_dir(folder).map_err(failed)?.count();
     let ours = folder.join(RUN).is_file();
-    if force || ours || entries.next().is_none() {
+    if force || ours || entries == 0 {
         return Ok(());
+    }
+    if entries == found.in_use {
+        return Err(Failure::Wrong(format!(
+            "another build is writing to the folder {}; wait until it has ended, or name another one with -o",
+            folder.display()
+        )));
     }
     Err(Failure::Wrong(format!(
         "the folder {} holds things that are no build of this program; \
@@ -274,6 +285,9 @@ fn check_folder(folder: &Path, force: bool) -> Result<(), Failure> {
         folder.display()
     )))
 }
+
+/// What the names of folders of unfinished files begin with.
+const UNFINISHED: &str = ".unfinished-";
 
 /// What differs from run to run; its presence marks a folder of results.
 const RUN: &str = "run.json";
@@ -296,10 +310,7 @@ impl Output<'_> {
         let failed = |error: std::io::Error| Failure::file("write to", self.folder, &error);
         let is_new = !self.folder.exists();
         std::fs::create_dir_all(self.folder).map_err(failed)?;
-        let staging = tempfile::Builder::new()
-            .prefix(".unfinished-")
-            .tempdir_in(self.folder)
-            .map_err(failed)?;
+        let staging = Unfinished::new(self.folder, UNFINISHED).map_err(failed)?;
         interrupt::unfinished_in(Some(if is_new { self.folder } else { staging.path() }));
         let result = self
             .write_files(staging.path(), built, report)

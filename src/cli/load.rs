@@ -53,6 +53,7 @@ pub(super) fn model(args: &ModelArgs, json: bool) -> Result<Model, Failure> {
 /// The same, with the draws made and the surfaces built.
 pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
     let started = Instant::now();
+    start_threads()?;
     let model = model(args, json)?;
     let reading = started.elapsed();
     let started = Instant::now();
@@ -66,6 +67,17 @@ pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
         selection,
         timings,
     })
+}
+
+/// Starts the worker threads: where they are started on demand, a system that has no more of them ends the program with a panic.
+fn start_threads() -> Result<(), Failure> {
+    rayon::ThreadPoolBuilder::new()
+        .build_global()
+        .map_err(|error| {
+            Failure::Surroundings(format!(
+                "the system starts no threads ({error}); end other programs, or allow more processes (`ulimit -u`)"
+            ))
+        })
 }
 
 impl Loaded {

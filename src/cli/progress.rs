@@ -15,7 +15,8 @@ pub(super) struct Progress {
 const STEPS: u64 = 100;
 
 impl Progress {
-    /// Hidden when quiet, or when standard error is no terminal.
+    /// Hidden when quiet, or when standard error is no terminal; then nothing moves by itself either, which would take a
+    /// thread.
     pub(super) fn new(quiet: bool) -> Self {
         let target = if quiet {
             ProgressDrawTarget::hidden()
@@ -29,7 +30,9 @@ impl Progress {
                 .unwrap_or_else(|_| ProgressStyle::default_bar())
                 .progress_chars("=> "),
         );
-        bar.enable_steady_tick(Duration::from_millis(250));
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_millis(250));
+        }
         Self { bar }
     }
 
