@@ -7,7 +7,7 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::print;
 use crate::model::rules::{Rules, Verdict, VolumeRules};
-use crate::model::{HorizonSurface, Quantity, meshing};
+use crate::model::{HorizonSurface, Quantity, meshing, remarks};
 
 /// Report every defect of a model file, and how its rules resolve.
 ///
@@ -43,11 +43,22 @@ struct Line {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, args.json)?;
     let lines = resolve(&loaded.realisation.volumes, &loaded.realisation.rules);
+    let remarks = remarks(&loaded)?;
     if args.json {
-        print::out(&json(&loaded, &lines).to_string())
+        print::out(&json(&loaded, &lines, &remarks).to_string())
     } else {
-        print::out(text(&loaded, &lines).trim_end())
+        print::out(text(&loaded, &lines, &remarks).trim_end())
     }
+}
+
+/// What is to be said of the realisation.
+fn remarks(loaded: &Loaded) -> Result<Vec<String>, Failure> {
+    let realisation = &loaded.realisation;
+    let outside = remarks::outside_parents(realisation);
+    let empty = remarks::empty(realisation, &loaded.owners()?);
+    let empty = remarks::say_empty(realisation, &empty, remarks::Known::ByPoints, &outside);
+    let outside = outside.into_iter().map(|remark| remark.text);
+    Ok(outside.chain(empty).collect())
 }
 
 /// What each feature does to each older one, and to other instances of itself.
@@ -176,7 +187,7 @@ fn paragraph(line: &Line) -> String {
     out
 }
 
-fn text(loaded: &Loaded, lines: &[Line]) -> String {
+fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
     let mut out = String::new();
     let model = &loaded.model;
     let _ = writeln!(out, "{}: no defects", model.name);
@@ -201,11 +212,8 @@ fn text(loaded: &Loaded, lines: &[Line]) -> String {
             rejection.count, rejection.feature, rejection.reason
         );
     }
-    for decision in &loaded.realisation.decisions {
-        let _ = writeln!(out, "\nnote: {decision}");
-    }
-    for note in &model.notes {
-        let _ = writeln!(out, "\nnote: {}: {}", note.place, note.message);
+    for note in loaded.notes().iter().chain(remarks) {
+        let _ = writeln!(out, "\nnote: {note}");
     }
     for advice in meshing::advice(&loaded.realisation) {
         let _ = writeln!(out, "\nmeshing: {advice}");
@@ -213,7 +221,7 @@ fn text(loaded: &Loaded, lines: &[Line]) -> String {
     out
 }
 
-fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
+fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Value {
     let features: Vec<_> = lines
         .iter()
         .map(|line| {
@@ -243,6 +251,7 @@ fn json(loaded: &Loaded, lines: &[Line]) -> serde_json::Value {
         .collect();
     serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features,
         "decisions": loaded.realisation.decisions, "notes": notes,
+        "remarks": remarks,
         "meshing": meshing::advice(&loaded.realisation) })
 }
 

@@ -81,6 +81,15 @@ fn start_threads() -> Result<(), Failure> {
 }
 
 impl Loaded {
+    /// What is worth saying of the model although it is right: what takes no part, then the notes in the order of the file.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let decisions = self.realisation.decisions.iter().cloned();
+        let notes = self.model.notes.iter();
+        decisions
+            .chain(notes.map(|note| format!("{}: {}", note.place, note.message)))
+            .collect()
+    }
+
     /// The point evaluator.
     pub(super) fn owners(&self) -> Result<Owners, Failure> {
         Owners::new(&self.realisation).map_err(|error| Failure::Wrong(error.to_string()))

@@ -115,6 +115,15 @@ fn section(args: &Args, loaded: &Loaded, owners: &Owners) -> Result<SectionFigur
     let raster = raster(COLUMNS, ROWS, extent, |distance, elevation| {
         owners.at(along(&line, distance).extend(elevation))
     });
+    if shows_nothing(&raster) {
+        let points: Vec<String> = line.iter().map(|p| format!("({}, {})", p.x, p.y)).collect();
+        return Err(Failure::Wrong(format!(
+            "the section from {} meets nothing of the model, whose domain is x {:?}, y {:?}; choose a line through it",
+            points.join(" to "),
+            domain.x,
+            domain.y
+        )));
+    }
     let (volumes, legend) = picture::key(loaded);
     Ok(SectionFigure {
         title: loaded.model.name.clone(),
@@ -156,6 +165,11 @@ fn map(loaded: &Loaded, owners: &Owners, elevation: f64) -> Result<SectionFigure
     let raster = raster(COLUMNS / 2, rows, extent, |x, y| {
         owners.at(DVec3::new(x, y, elevation))
     });
+    if shows_nothing(&raster) {
+        return Err(Failure::Wrong(format!(
+            "the map at {elevation} m meets nothing of the model: it lies above the domain's top or below its base"
+        )));
+    }
     let (volumes, legend) = picture::key(loaded);
     Ok(SectionFigure {
         title: loaded.model.name.clone(),
@@ -191,6 +205,11 @@ fn raster(
         height,
         cells: cells.collect(),
     }
+}
+
+/// Whether all of it lies outside of the domain.
+fn shows_nothing(raster: &LabelRaster) -> bool {
+    raster.cells.iter().all(|cell| *cell == LabelRaster::NONE)
 }
 
 /// The point at a distance along a line.

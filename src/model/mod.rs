@@ -24,6 +24,7 @@ mod profile;
 mod quantity;
 mod read;
 pub mod realisation;
+pub mod remarks;
 pub mod rules;
 mod schema;
 pub mod selection;

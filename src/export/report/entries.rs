@@ -28,8 +28,10 @@ pub struct Report {
     pub rejected_draws: Vec<RejectedEntry>,
     /// What was decided before the kernel saw it: what takes no part, and coincidences.
     pub decisions: Vec<String>,
-    /// Remarks on the model file.
+    /// Remarks on the model file, and on children that lie outside of their parents.
     pub notes: Vec<String>,
+    /// Which volumes have no solids, feature by feature, but for those that the notes tell of and units that are divided.
+    pub empty: Vec<String>,
     /// How the solids were made.
     pub assembly: AssemblyEntry,
     /// The proof that they are right.

@@ -11,7 +11,7 @@ use crate::assembly::proof::Level;
 use crate::assembly::{Assembly, kernel};
 use crate::model::plan::AssemblyPlan;
 use crate::model::realisation::Realisation;
-use crate::model::{Facies, Model, Property};
+use crate::model::{Facies, Model, Property, remarks};
 
 pub use entries::*;
 use groups::groups;
@@ -60,6 +60,17 @@ impl Report {
                 one.net
                     .map(|net| if net { sum + one.volume_m3 } else { sum })
             });
+        let mut notes: Vec<String> = model
+            .notes
+            .iter()
+            .map(|note| note.message.clone())
+            .collect();
+        let outside = remarks::outside_parents(realisation);
+        notes.extend(outside.iter().map(|remark| remark.text.clone()));
+        let empty: Vec<usize> = (0..realisation.volumes.len())
+            .filter(|volume| assembly.measured.pieces_of(*volume).is_empty())
+            .collect();
+        let empty = remarks::say_empty(realisation, &empty, remarks::Known::BySolids, &outside);
         Self {
             schema: SCHEMA,
             program: Program {
@@ -93,11 +104,8 @@ impl Report {
                 })
                 .collect(),
             decisions: plan.decisions.clone(),
-            notes: model
-                .notes
-                .iter()
-                .map(|note| note.message.clone())
-                .collect(),
+            notes,
+            empty,
             assembly: assembly_entry(assembly),
             proof: ProofEntry {
                 level: level.name(),

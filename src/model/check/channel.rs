@@ -47,7 +47,10 @@ impl Checker<'_> {
                 "trajectory",
                 example,
             )
-            .and_then(|(node, Any)| self.trajectory(node, draft));
+            .and_then(|(node, Any)| Some((node, self.trajectory(node, draft)?)));
+        if let (Some((node, trajectory)), Some(domain)) = (&trajectory, domain) {
+            self.note_far_trajectory(*node, trajectory, &draft.name, domain);
+        }
         let angle = self.number_in(
             file.angle_limit_deg,
             DEFAULT_ANGLE_LIMIT_DEG,
@@ -69,7 +72,7 @@ impl Checker<'_> {
             right_angle_deg: plain(right.ok()?),
             top: plain(top.ok()?),
             origin: origin?,
-            trajectory: trajectory?,
+            trajectory: trajectory?.1,
             angle_limit_deg: angle?,
             tolerance_fraction: tolerance?,
         })

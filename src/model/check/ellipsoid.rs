@@ -84,10 +84,20 @@ impl Checker<'_> {
             most + reach <= low || least - reach >= high
         });
         if beyond {
+            let [x, y, _] = center;
+            let in_world = x
+                .constant()
+                .zip(y.constant())
+                .is_some_and(|(x, y)| self.is_in_world([x, y], domain.x, domain.y));
+            let remedy = if in_world {
+                "; its center is given in the world: subtract the model's origin"
+            } else {
+                ""
+            };
             self.note(
                 node,
                 format!(
-                    "{} lies outside the domain, so it has no volume",
+                    "{} lies outside the domain, so it has no volume{remedy}",
                     draft.name
                 ),
             );

@@ -21,13 +21,14 @@ impl Checker<'_> {
         let file: GridFile = self.reader.table(node)?;
         let name = format!("the grid of {what}");
         self.reader.close(node, &name);
-        let along = |field: Field<[f64; 2]>, key: &str, needed: Option<[f64; 2]>| {
+        let [east, north, _] = self.origin;
+        let along = |field: Field<[f64; 2]>, key: &str, needed: Option<[f64; 2]>, origin: f64| {
             let example = format!("{key} = [0, 1000]");
             let (at, range) = self.reader.need(field, node, &name, key, &example)?;
-            self.grid_range(at, &name, key, range, needed)
+            self.grid_range(at, &name, key, range, needed.map(|needed| (needed, origin)))
         };
-        let x = along(file.x, "x", extent.x);
-        let y = along(file.y, "y", extent.y);
+        let x = along(file.x, "x", extent.x, east);
+        let y = along(file.y, "y", extent.y, north);
         let example = "heights = [[-20, -20], [-21, -22]]";
         let heights = self
             .reader
@@ -41,29 +42,34 @@ impl Checker<'_> {
         })
     }
 
-    /// The extent of a grid, which must hold the domain's.
+    /// The extent of a grid, which must hold the domain's (given with the model's origin along that axis).
     fn grid_range(
         &self,
         node: NodeId,
         name: &str,
         key: &str,
         [low, high]: [f64; 2],
-        needed: Option<[f64; 2]>,
+        needed: Option<([f64; 2], f64)>,
     ) -> Option<[f64; 2]> {
         if low >= high {
             let what = format!("the `{key}` of {name}");
             self.no_range(node, &what, [low, high], "write [smaller, larger]");
             return None;
         }
-        if let Some([first, last]) = needed
+        if let Some(([first, last], origin)) = needed
             && (low > first || high < last)
         {
+            let in_world = origin != 0.0 && low - origin <= first && high - origin >= last;
             self.reader.wrong(
                 node,
                 format!(
                     "{name} reaches from {low} to {high} in {key}, the domain from {first} to {last}"
                 ),
-                "a surface runs through the whole domain: extend the grid to its limits or beyond",
+                if in_world {
+                    format!("these are coordinates in the world; the model's are its own: subtract the origin's {origin}")
+                } else {
+                    "a surface runs through the whole domain: extend the grid to its limits or beyond".to_owned()
+                },
             );
             return None;
         }
@@ -135,7 +141,7 @@ impl Checker<'_> {
         table: NodeId,
         node: NodeId,
         tolerance: Option<Field<f64>>,
-        what: &str,
+        (what, extent): (&str, Extent),
     ) -> Option<HorizonSurface> {
         let tolerance = match tolerance {
             None => {
@@ -155,6 +161,9 @@ impl Checker<'_> {
             }),
         };
         let points = self.scattered_points(node, what);
+        if let Some(points) = &points {
+            self.points_near(node, points, what, extent)?;
+        }
         Some(HorizonSurface::Points {
             points: points?,
             tolerance: tolerance?,

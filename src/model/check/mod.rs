@@ -14,6 +14,7 @@ mod selector;
 mod surface;
 mod trajectory;
 mod tuple;
+mod world;
 
 use std::sync::Arc;
 
@@ -66,6 +67,7 @@ impl Model {
             reader: Reader::new(&tree, defects),
             texts: &texts,
             notes: Vec::new(),
+            origin: [0.0; 3],
         };
         let (model, defects) = checker.model(parsed.root);
         defects.finish(Arc::clone(&texts), model)
@@ -88,6 +90,8 @@ struct Checker<'t> {
     reader: Reader<'t>,
     texts: &'t [Text],
     notes: Vec<Note>,
+    /// Where the local origin lies in the world, as far as it is known.
+    origin: [f64; 3],
 }
 
 impl Checker<'_> {
@@ -109,6 +113,7 @@ impl Checker<'_> {
             None => Some([0.0; 3]),
             Some(field) => field.good().and_then(|(node, Any)| self.origin(node)),
         };
+        self.origin = origin.unwrap_or_default();
         let facies = self.all_facies(file.facies, root);
         let domain = self.domain(file.domain, root, &facies);
         let features = self.features(file.feature, domain.as_ref(), &facies);

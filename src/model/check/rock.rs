@@ -203,8 +203,8 @@ impl Checker<'_> {
             let value = if numeric {
                 self.property(entry.node)
             } else {
-                // A porosity of a wrong type is reported where the known keys are read.
-                if key == "permeability" {
+                // A porosity of a wrong type is reported where the known keys are read, and so is what is null.
+                if key == "permeability" && !matches!(value, Value::Null) {
                     self.no_permeability(entry.node, name);
                 }
                 None
@@ -250,7 +250,10 @@ impl Checker<'_> {
                 }
                 _ => "write millidarcy, without quotes or unit".to_owned(),
             },
-            Value::Table(_) => "rock properties are not drawn; write one number in millidarcy, or [x, y, z]".to_owned(),
+            Value::Table(_) => {
+                "rock properties are not drawn; write one number in millidarcy, or [x, y, z]"
+                    .to_owned()
+            }
             _ => "write one number in millidarcy, or [x, y, z]".to_owned(),
         };
         let (facies, found) = (quoted(name), self.reader.tree.describe(node));

@@ -80,7 +80,7 @@ impl Checker<'_> {
         let grid = self.form(file.grid, |checker, at| checker.grid(at, what, extent));
         let tolerance = file.tolerance;
         let points = self.form(file.points, |checker, at| {
-            checker.scattered(node, at, tolerance, what)
+            checker.scattered(node, at, tolerance, (what, extent))
         });
         let surface = level.or(dipping).or(grid).or(points)?;
         self.note_beyond(node, &surface, what, extent);
@@ -236,6 +236,12 @@ impl Checker<'_> {
             HorizonSurface::Grid { heights, .. } => heights.concat(),
             HorizonSurface::Points { points, .. } => points.iter().map(|point| point[2]).collect(),
         };
+        let turned = heights.iter().any(|z| (base..=top).contains(&-z));
+        let remedy = if turned {
+            "z points up, so depths are negative: turn the sign of its heights"
+        } else {
+            "move the surface, or make the domain's z range larger"
+        };
         let place = if heights.iter().all(|&z| z >= top) {
             "above"
         } else if heights.iter().all(|&z| z <= base) {
@@ -245,7 +251,9 @@ impl Checker<'_> {
         };
         self.note(
             node,
-            format!("{what} lies {place} the domain, whose z range is from {base} to {top}"),
+            format!(
+                "{what} lies {place} the domain, whose z range is from {base} to {top}; {remedy}"
+            ),
         );
     }
 }
