@@ -62,13 +62,7 @@ pub(super) fn attempt(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Result<Fused, Failed>, AssemblyError> {
     let job = job(plan, remedy, options.threads);
-    let failed = |why: String| {
-        Ok(Err(Failed {
-            engine: Engine::Occt,
-            remedy: remedy.name,
-            why,
-        }))
-    };
+    let failed = |why: String| Ok(Err(Failed::new(Engine::Occt, remedy.name, why)));
     match fuse(&job, options, cancel, progress) {
         Ok(Ok((solids, report))) => Ok(Ok(Fused {
             solids,
@@ -77,11 +71,13 @@ pub(super) fn attempt(
         })),
         Ok(Err(FuseError::Cancelled)) => Err(AssemblyError::Cancelled),
         Ok(Err(error)) => failed(explain(&error, plan)),
-        Err(error @ WorkerError::Crashed(_)) => failed(format!("{error}, with {}", names(plan))),
+        Err(error @ WorkerError::Crashed(_)) => {
+            failed(format!("{error}, with {}", names(plan, &[])))
+        }
         Err(source) => Err(AssemblyError::Worker {
             source,
             bodies: plan.bodies.len(),
-            names: names(plan),
+            names: names(plan, &[]),
         }),
     }
 }
@@ -201,22 +197,27 @@ fn explain(error: &FuseError, plan: &AssemblyPlan) -> String {
             )
         }
         FuseError::Kernel(_) | FuseError::UnusedFaces(_) | FuseError::Labels(_) => {
-            format!("{error}; bodies: {}", names(plan))
+            format!("{error}; bodies: {}", names(plan, &[]))
         }
         FuseError::Cancelled => error.to_string(),
     }
 }
 
-/// The names of the bodies that take part, shortened if many.
-fn names(plan: &AssemblyPlan) -> String {
+/// The names of these volumes, shortened if many; of all bodies that take part if there is none.
+pub(super) fn names(plan: &AssemblyPlan, volumes: &[usize]) -> String {
     const MOST: usize = 12;
-    let mut names: Vec<&str> = plan
-        .bodies
+    let all = plan.bodies.iter().map(|body| body.volume);
+    let chosen: Vec<usize> = if volumes.is_empty() {
+        all.collect()
+    } else {
+        volumes.to_vec()
+    };
+    let mut names: Vec<&str> = chosen
         .iter()
         .take(MOST)
-        .map(|body| plan.names[body.volume].as_str())
+        .map(|volume| plan.names[*volume].as_str())
         .collect();
-    if plan.bodies.len() > MOST {
+    if chosen.len() > MOST {
         names.push("…");
     }
     names.join(", ")

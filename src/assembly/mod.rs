@@ -7,6 +7,7 @@
 //! draws anything anew. What cannot be proven is refused.
 
 mod closed;
+pub mod contacts;
 mod fused;
 pub(crate) mod kernel;
 mod labels;
@@ -17,11 +18,13 @@ pub(crate) mod shapes;
 pub mod unfinished;
 pub mod worker;
 
+use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use crate::model::owner::{Owners, OwnersError};
 use crate::model::plan::{AssemblyPlan, PlanError};
 use crate::model::realisation::{Realisation, RealisationError};
+use contacts::Contact;
 pub use kernel::Cancel;
 use measure::Measured;
 use partitioned::Partitioned;
@@ -76,7 +79,7 @@ pub struct Options {
 }
 
 /// An attempt that was not proven, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Failed {
     /// What had made it.
     pub engine: Engine,
@@ -84,6 +87,35 @@ pub struct Failed {
     pub remedy: &'static str,
     /// Why its result was not accepted.
     pub why: String,
+    /// Where it could not tell how things lie.
+    pub contacts: Vec<Contact>,
+    /// The volumes that were in doubt, as far as it is known.
+    pub doubtful: Vec<usize>,
+}
+
+impl Failed {
+    /// An attempt of which no more is known than why it failed.
+    fn new(engine: Engine, remedy: &'static str, why: String) -> Self {
+        Self {
+            engine,
+            remedy,
+            why,
+            contacts: Vec::new(),
+            doubtful: Vec::new(),
+        }
+    }
+}
+
+impl std::fmt::Display for Failed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{}, remedy “{}”: {}",
+            self.engine.name(),
+            self.remedy,
+            self.why
+        )
+    }
 }
 
 /// A proven assembly.
@@ -147,17 +179,27 @@ pub enum AssemblyError {
     /// No remedy gave a result that could be proven.
     #[error(
         "the assembly could not be proven, so nothing is written\n{}",
-        list(failed)
+        refusal(contacts, names)
     )]
     NotProven {
         /// What was tried.
         failed: Vec<Failed>,
+        /// Where things lie too near each other.
+        contacts: Vec<Contact>,
+        /// What is in doubt, if no such place is known; all bodies if that is not known either.
+        names: String,
     },
     /// The system starts no threads.
     #[error(
         "the system starts no threads ({0}); end other programs, or allow more processes (`ulimit -u`)"
     )]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    /// The general fuse was asked for alone, and there is something that it cannot be given.
+    #[error(
+        "the general fuse takes closed bodies only, and the model has horizons, clinoforms, or a domain with a base or top of its \
+         own: build it by the partition (`--engine auto`)"
+    )]
+    NotClosed,
     /// The child process took too long or could not be used.
     #[error("{source}; the model has {bodies} bodies: {names}")]
     Worker {
@@ -173,17 +215,23 @@ pub enum AssemblyError {
     Measure(String),
 }
 
-fn list(failed: &[Failed]) -> String {
-    let line = |(i, failed): (usize, &Failed)| {
-        let (engine, remedy) = (failed.engine.name(), failed.remedy);
-        format!("  {}. {engine}, remedy “{remedy}”: {}", i + 1, failed.why)
-    };
-    failed
-        .iter()
-        .enumerate()
-        .map(line)
-        .collect::<Vec<_>>()
-        .join("\n")
+/// What is wrong with a model that cannot be proven, and what to change.
+fn refusal(contacts: &[Contact], names: &str) -> String {
+    let mut out = String::new();
+    for contact in contacts.iter().take(contacts::MOST_SAID) {
+        let _ = writeln!(out, "  {contact}");
+    }
+    if let Some(more @ 1..) = contacts.len().checked_sub(contacts::MOST_SAID) {
+        let _ = writeln!(out, "  … and {more} more such places");
+    }
+    if contacts.is_empty() {
+        let _ = writeln!(
+            out,
+            "  in doubt: {names}; where they are too near each other is not known: leave out one after the other (`--without`) to \
+             find which it is, and change its course, size or elevation a little"
+        );
+    }
+    out.trim_end().to_owned()
 }
 
 /// What there is before anything is assembled: the domain as volume 0, then each body whole, by its volume.
@@ -264,6 +312,9 @@ pub fn assemble(
     cancel: &Cancel,
     progress: &(dyn Fn(Stage, f64) + Sync),
 ) -> Result<(Subject, Assembly), AssemblyError> {
+    if options.engine == Engine::Occt && subject.plan.has_sides() {
+        return Err(AssemblyError::NotClosed);
+    }
     let mut run = Run {
         subject,
         options,
@@ -285,11 +336,8 @@ pub fn assemble(
             match Subject::by_age(again, step * size) {
                 Ok(subject) => run.subject = subject,
                 Err(why) => {
-                    run.failed.push(Failed {
-                        engine: Engine::Partition,
-                        remedy: partitioned::BY_AGE.name,
-                        why,
-                    });
+                    let remedy = partitioned::BY_AGE.name;
+                    run.failed.push(Failed::new(Engine::Partition, remedy, why));
                     continue;
                 }
             }
@@ -302,11 +350,12 @@ pub fn assemble(
     }
     let plan = &run.subject.plan;
     if options.engine != Engine::Partition && plan.has_sides() {
-        run.failed.push(Failed {
-            engine: Engine::Occt,
-            remedy: fused::LADDER[0].name,
-            why: "it takes closed bodies only, and the model has horizons, clinoforms, or a domain with a base or top of its own".to_owned(),
-        });
+        run.failed.push(Failed::new(
+            Engine::Occt,
+            fused::LADDER[0].name,
+            "it takes closed bodies only, and the model has horizons, clinoforms, or a domain with a base or top of its own"
+                .to_owned(),
+        ));
     } else if options.engine != Engine::Partition {
         for remedy in &fused::LADDER {
             let made = run.timed(|run| run.fuse(remedy))?;
@@ -315,7 +364,7 @@ pub fn assemble(
             }
         }
     }
-    Err(AssemblyError::NotProven { failed: run.failed })
+    Err(run.refused())
 }
 
 /// The state of an assembly under way.
@@ -418,12 +467,35 @@ impl Run<'_> {
             Err(proof::ProofError::Cancelled) => return Err(AssemblyError::Cancelled),
             Err(error) => error.to_string(),
         };
-        self.failed.push(Failed {
-            engine: candidate.engine,
-            remedy: candidate.remedy,
-            why,
-        });
+        let (engine, remedy) = (candidate.engine, candidate.remedy);
+        self.failed.push(Failed::new(engine, remedy, why));
         Ok(None)
+    }
+
+    /// The refusal of the model as it was given.
+    fn refused(self) -> AssemblyError {
+        let (plan, owners) = (&self.subject.plan, &self.subject.owners);
+        // What is in doubt after contacts were decided by age is what stands in the way.
+        let known = self
+            .failed
+            .iter()
+            .rev()
+            .find(|failed| !failed.contacts.is_empty());
+        let doubtful = self
+            .failed
+            .iter()
+            .rev()
+            .find(|failed| !failed.doubtful.is_empty());
+        let volumes = doubtful.map_or(&[][..], |failed| &failed.doubtful);
+        let contacts = match known {
+            Some(failed) => failed.contacts.clone(),
+            None => contacts::search(plan, owners, volumes),
+        };
+        AssemblyError::NotProven {
+            names: fused::names(plan, volumes),
+            contacts,
+            failed: self.failed,
+        }
     }
 
     fn finish(&mut self, candidate: Candidate, proof: Proof) -> Assembly {

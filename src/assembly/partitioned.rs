@@ -15,7 +15,7 @@ use super::labels::Holders;
 use super::measure::{Counts, Measured};
 use super::proof::{Check, Evidence};
 use super::shapes::EXACT;
-use super::{AssemblyError, Engine, Failed, Options};
+use super::{AssemblyError, Engine, Failed, Options, contacts};
 use crate::features::body::TroughError;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
@@ -63,13 +63,7 @@ pub(super) fn attempt(
     options: &Options,
     cancel: &Cancel,
 ) -> Result<Result<Partitioned, Failed>, AssemblyError> {
-    let failed = |why: String| {
-        Ok(Err(Failed {
-            engine: Engine::Partition,
-            remedy: remedy.name,
-            why,
-        }))
-    };
+    let failed = |why: String| Ok(Err(Failed::new(Engine::Partition, remedy.name, why)));
     let made = match partition(plan, owners, remedy, options, cancel) {
         Ok(made) => made,
         Err(Trouble::Partition(PartitionError::Stopped)) => return Err(AssemblyError::Cancelled),
@@ -77,19 +71,30 @@ pub(super) fn attempt(
         Err(trouble) => return failed(trouble.to_string()),
     };
     if !made.faults.is_none() {
-        let names: Vec<&str> = made
+        let mut doubtful: Vec<usize> = made
             .doubtful_regions
             .iter()
             .filter_map(|region| region.checked_sub(1 + plan.lids.len()))
             .filter_map(|shell| plan.bodies.iter().find(|body| body.shell == shell))
-            .map(|body| plan.names[body.volume].as_str())
+            .map(|body| body.volume)
+            .collect();
+        doubtful.sort_unstable();
+        doubtful.dedup();
+        let names: Vec<&str> = doubtful
+            .iter()
+            .map(|volume| plan.names[*volume].as_str())
             .collect();
         let whose = if names.is_empty() {
             String::new()
         } else {
             format!(" (at {})", names.join(", "))
         };
-        return failed(format!("it contradicts itself{whose}: {}", made.faults));
+        let why = format!("it contradicts itself{whose}: {}", made.faults);
+        return Ok(Err(Failed {
+            contacts: contacts::of_doubts(plan, &made.doubts),
+            doubtful,
+            ..Failed::new(Engine::Partition, remedy.name, why)
+        }));
     }
     match finish(plan, &made) {
         Ok(made) => Ok(Ok(made)),

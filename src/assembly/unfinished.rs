@@ -113,6 +113,7 @@ fn state(folder: &Path) -> State {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 

@@ -13,8 +13,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::unfinished::{self, Unfinished};
 use super::kernel::{Cancel, FuseError, FuseJob, FuseReport, Solids, fuse};
+use super::unfinished::{self, Unfinished};
 
 /// The hidden command by which the program starts itself.
 pub const COMMAND: &str = "fuse-worker";
@@ -116,7 +116,11 @@ fn supervise(
         let (fed, _open) = mpsc::channel();
         // A child that dies while it is fed closes its end: its exit status says more than this error.
         let feed = move || {
-            drop(input.write_all(&length).and_then(|()| input.write_all(&bytes)));
+            drop(
+                input
+                    .write_all(&length)
+                    .and_then(|()| input.write_all(&bytes)),
+            );
             // Its input stays open as long as somebody waits for it.
             drop(fed.send(input));
         };

@@ -12,9 +12,9 @@ use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
 use crate::export::report::{Parts, Report};
 use crate::export::{ExportError, brep, file, step, table};
-use crate::model::Model;
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
+use crate::model::{Model, remarks};
 
 /// Build watertight solids and write them as STEP, with a report and the proof that they are right.
 ///
@@ -63,7 +63,10 @@ pub(super) struct EngineArgs {
     /// Stop a general fuse that takes longer (s).
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, default_value_t = 1800, value_parser = clap::value_parser!(u64).range(1..))]
     time_limit: u64,
-    /// No progress bars and no summary.
+    /// Where a model is refused, tell what every engine tried and what went wrong in it.
+    #[arg(short, long)]
+    verbose: bool,
+    /// No progress bars, no notes and no summary.
     #[arg(long)]
     pub(super) quiet: bool,
 }
@@ -163,6 +166,19 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // Before the work: a folder that cannot be used is told at once.
     check_folder(&folder, args.force)?;
     let loaded = load::realise(&args.model, args.json)?;
+    let say = |notes: &[String]| {
+        if !args.engine.quiet {
+            for note in notes {
+                print::err(&format!("note: {note}"));
+            }
+        }
+    };
+    say(&loaded.notes());
+    let outside = remarks::outside_parents(&loaded.realisation);
+    say(&outside
+        .into_iter()
+        .map(|remark| remark.text)
+        .collect::<Vec<_>>());
     let cancel = interrupt::cancel()?;
     let progress = Progress::new(args.engine.quiet || args.json);
     let built = assemble(loaded, &args.engine, &cancel, &progress)?;
@@ -174,6 +190,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         level: args.engine.level(),
     });
     progress.stage("writing");
+    progress.aside(|| say(&report.empty));
     let writing = Instant::now();
     let output = Output {
         folder: &folder,
@@ -248,6 +265,18 @@ pub(super) fn assemble(
                     source: worker::WorkerError::Io(_),
                     ..
                 } => Failure::Surroundings(error.to_string()),
+                AssemblyError::NotProven { ref failed, .. } => {
+                    let tried = if engine.verbose {
+                        let line = |(i, failed): (usize, &assembly::Failed)| {
+                            format!("\n  {}. {failed}", i + 1)
+                        };
+                        let lines: String = failed.iter().enumerate().map(line).collect();
+                        format!("\nwhat was tried:{lines}")
+                    } else {
+                        "\n(--verbose tells what was tried)".to_owned()
+                    };
+                    Failure::Unproven(format!("{error}{tried}"))
+                }
                 _ => Failure::Unproven(error.to_string()),
             })
         }

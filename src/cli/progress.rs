@@ -57,6 +57,11 @@ impl Progress {
             .set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
 
+    /// Lets something be printed without the bar in its way.
+    pub(super) fn aside(&self, print: impl FnOnce()) {
+        self.bar.suspend(print);
+    }
+
     /// Removes the bar.
     pub(super) fn done(&self) {
         self.bar.finish_and_clear();
