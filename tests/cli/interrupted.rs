@@ -15,7 +15,7 @@ fn signal(name: &str, target: &str) {
 }
 
 /// Ids of processes one of whose arguments lies in the sandbox's folder for temporary files: workers.
-fn workers(sandbox: &Sandbox) -> Vec<String> {
+pub(crate) fn workers(sandbox: &Sandbox) -> Vec<String> {
     let marker = sandbox.temporary().to_str().unwrap().to_owned();
     let processes = std::fs::read_dir("/proc").unwrap().flatten();
     processes
@@ -38,7 +38,7 @@ fn start(sandbox: &Sandbox, arguments: &str) -> Child {
         .unwrap()
 }
 
-fn wait_for_worker(sandbox: &Sandbox, parent: &mut Child) {
+pub(crate) fn wait_for_worker(sandbox: &Sandbox, parent: &mut Child) {
     while workers(sandbox).is_empty() {
         let ended = parent.try_wait().unwrap();
         assert!(ended.is_none(), "it ended without a worker: {ended:?}");

@@ -7,8 +7,10 @@
     reason = "a test fails by panicking"
 )]
 
+mod abandoned;
 mod answers;
 mod draws;
 mod failures;
 mod interrupted;
+mod notes;
 mod sandbox;
