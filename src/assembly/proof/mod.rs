@@ -6,6 +6,8 @@
 
 mod samples;
 
+use glam::DVec3;
+
 use super::Options;
 use super::kernel::{BridgeError, Cancel, FaceSample, Solids, Threads, defects};
 use super::measure::Measured;
@@ -289,10 +291,15 @@ impl Prover<'_> {
     fn kernel_volumes(&self) -> Result<Check, ProofError> {
         let measured = Measured::of_solids(self.solids, self.plan)?;
         let of_solid = |of: &Measured| {
-            let mut sizes: Vec<(usize, usize, f64)> = of
+            // Thin pieces have much area for their volume: that of their box is a fair measure of it.
+            let area = |(low, high): (DVec3, DVec3)| {
+                let size = high - low;
+                2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
+            };
+            let mut sizes: Vec<(usize, usize, f64, f64)> = of
                 .pieces
                 .iter()
-                .map(|piece| (piece.solid, piece.volume, piece.size))
+                .map(|piece| (piece.solid, piece.volume, piece.size, area(piece.bounds)))
                 .collect();
             sizes.sort_by_key(|size| size.0);
             sizes
@@ -302,8 +309,7 @@ impl Prover<'_> {
             .iter()
             .zip(&theirs)
             .map(|(a, b)| {
-                let area = 6.0 * a.2.abs().powf(2.0 / 3.0);
-                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * area;
+                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * a.3;
                 ((a.2 - b.2).abs() / bound, a.1, a.2, b.2)
             })
             .max_by(|a, b| a.0.total_cmp(&b.0))
