@@ -141,7 +141,10 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let (slack, twins) = (self.slack(), self.twins);
         halved.halve(
             |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
-            |half| !(twins && are_beside(half, &other.patch)) && !apart(half, &other.patch, slack),
+            |half| {
+                let beside = twins && are_beside(half, &other.patch);
+                !beside && !apart(half, &other.patch, slack)
+            },
             |half| {
                 if first {
                     self.patches(half, b);
