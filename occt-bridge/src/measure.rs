@@ -1,8 +1,9 @@
 //! Areas, volumes, bounds, points of faces, and whether a point is inside.
 //!
-//! Integrals are adaptive, to a relative error that the caller states. Volumes are by the kernel's Gauss–Kronrod integrals: its
-//! other ones, without such an error, are wrong by 4e-5 on spline solids, and with one still by 1e-4 where spans of a large face
-//! differ much, whatever the error asked for. So are the areas of planes; those of other faces have no such form.
+//! Integrals are adaptive, to a relative error that the caller states. The kernel's Gauss form, without such an error, is wrong by 4e-5
+//! on spline solids, and with one still by up to 1e-3 where spans of a large face differ much, or where a plane lies within spline
+//! edges, whatever is asked for. So fluxes of [`face_integrals`], and all areas of planes, are by its Gauss–Kronrod form; areas of
+//! other faces have none.
 
 use cxx::UniquePtr;
 
@@ -100,7 +101,8 @@ pub fn face_samples(
         .collect())
 }
 
-/// Volume of all solids in a shape, m³, to the relative error `eps` per face.
+/// Volume of all solids in a shape, m³, to the relative error `eps` per face as the kernel's Gauss form sees it: quick, and wrong by
+/// up to 1e-3 where spans of a large face differ much. [`face_integrals`] are not.
 ///
 /// # Errors
 /// [`BridgeError::Input`] if there is no solid or `eps` is not between 0 and 0.1.
