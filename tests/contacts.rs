@@ -105,8 +105,9 @@ fn a_channel_may_touch_the_domains_base_its_walls_and_end_on_them() {
     report(&[channel(60.0, 6.0, -5.0, ([0.0, 0.0], [400.0, 300.0]))]);
     let on_the_walls = report(&[channel(60.0, 6.0, -5.0, ([0.0, 150.0], [400.0, 150.0]))]);
     let beyond = report(&[channel(60.0, 6.0, -5.0, WEST_EAST)]);
-    let miss = volume(&on_the_walls, "c1") - volume(&beyond, "c1");
-    assert!(miss.abs() < 1e-3, "{miss}");
+    // Where contacts are decided by age, bodies are narrower by a billionth of the domain's size.
+    let miss = volume(&on_the_walls, "c1") / volume(&beyond, "c1") - 1.0;
+    assert!(miss.abs() < 1e-6, "{miss}");
 }
 
 #[test]

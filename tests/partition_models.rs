@@ -135,7 +135,7 @@ fn two_engines_that_know_nothing_of_each_other_make_the_same_solids() {
 }
 
 #[test]
-fn bodies_that_only_touch_are_refused_by_the_partition_which_names_them() {
+fn bodies_that_only_touch_are_told_apart_by_age_and_keep_their_volumes() {
     let text = "name = \"Touch\"\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-24, 0]\nfacies = \"mud\"\n\
         [facies.mud]\n[facies.sand]\n\
         [[feature]]\nid = \"ball\"\nkind = \"ellipsoid\"\nfacies = \"sand\"\n\
@@ -143,11 +143,17 @@ fn bodies_that_only_touch_are_refused_by_the_partition_which_names_them() {
         [[feature]]\nid = \"beside\"\nkind = \"ellipsoid\"\nfacies = \"sand\"\n\
         semi_axes = [5, 5, 5]\ncenter = [215, 150, -12]\n";
     let source = Source::from_text("touch.toml", text, Format::Toml);
-    let Err(error) = assemble(&source, &[], Engine::Partition) else {
-        panic!("a contact in a point is not noticed");
-    };
-    let words = error.to_string();
-    for expected in ["ball", "beside", "undecided"] {
-        assert!(words.contains(expected), "{words}");
+    let built = assemble(&source, &[], Engine::Partition).unwrap();
+    assert_eq!(built.assembly.remedy, "contacts by age");
+    assert!(
+        built
+            .plan
+            .decisions
+            .iter()
+            .any(|words| words.contains("by age"))
+    );
+    for (name, radius) in [("ball", 10.0_f64), ("beside", 5.0)] {
+        let right = 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+        assert!((built.size(name) / right - 1.0).abs() < 1e-6, "{name}");
     }
 }

@@ -19,7 +19,7 @@ struct SolidsHandle;
 
 struct Integral {
   double value;
-  double error;  // relative, as the integrator estimates it
+  double error;  // as the integrator estimates it, in units of the value
 };
 
 // Volume of the cone from a point over a face, positive where the face, as oriented, looks away from the point.

@@ -207,7 +207,8 @@ pub(crate) mod bridge {
     struct FaceIntegralData {
         area: f64,
         flux: f64,
-        error: f64,
+        area_error: f64,
+        flux_error: f64,
         tolerance: f64,
     }
 

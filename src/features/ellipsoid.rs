@@ -5,7 +5,7 @@
 //! (PT97 §8.5). The weights are products of 1 and √½. Both v-ends are single points. The normal
 //! `S_u × S_v` points **outwards**.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3, EulerRot};
 
 use super::body::Nudge;
 use super::trajectory::azimuth_vector;
@@ -38,6 +38,9 @@ const MERIDIAN: [(f64, f64, f64); 5] = [
 ];
 /// Knots of the half circle.
 const UP: [f64; 8] = [0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0];
+
+/// Angles by which a nudged ellipsoid's seams and poles are turned (rad).
+const TURN: [f64; 3] = [0.571, 0.387, 0.443];
 
 /// An ellipsoid's parameters, sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,14 +143,23 @@ impl Ellipsoid {
         &self.skin
     }
 
-    /// See [`super::body::Body::nudged`]: smaller by the rise along its shortest axis, and moved.
+    /// See [`super::body::Body::nudged`]: smaller by the rise along its shortest axis, and moved. Its seams and poles are
+    /// elsewhere, too: a wall or a horizon through its centre would run along them.
     pub(super) fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
         let shortest = self
             .axes
             .iter()
             .fold(f64::INFINITY, |least, axis| least.min(axis.length()));
         let (scale, shift) = (1.0 - nudge.rise / shortest, nudge.shift.extend(0.0));
-        let moved = |p: &DVec3| self.center + shift + scale * (*p - self.center);
+        // A turn of the unit sphere about no direction that symmetry prefers: the ellipsoid stays the same.
+        let turn = DMat3::from_euler(EulerRot::ZYX, TURN[0], TURN[1], TURN[2]);
+        let [a, b, c] = self.axes;
+        let turned = DMat3::from_cols(a, b, c) * turn;
+        let back = DMat3::from_cols(a, b, c).inverse();
+        let moved = |p: &DVec3| {
+            let unit = back * (*p - self.center);
+            self.center + shift + scale * (turned * unit)
+        };
         let (u, v) = (self.skin.knots_u().clone(), self.skin.knots_v().clone());
         let net = self.skin.net().iter().map(moved).collect();
         Ok(Self {

@@ -12,6 +12,9 @@ use super::trajectory::azimuth_vector;
 
 /// How far the common strikes reach beyond the domain, as a fraction of its half extent along strike.
 pub const STRIKE_MARGIN: f64 = 0.1;
+/// Of a nudged frame: how far it moves along strike, and its borders by being turned, against how far it moves basinwards.
+const ASIDE: f64 = 0.43;
+const TURNED: f64 = 0.31;
 /// Samples along each side of the plan when the thickness of a unit is looked at.
 const SAMPLES: usize = 65;
 
@@ -57,7 +60,14 @@ pub struct ClinoformFrame {
 impl ClinoformFrame {
     /// The frame over a domain's plan for an azimuth of progradation (rad, clockwise from north).
     pub fn new(low: DVec3, high: DVec3, azimuth: f64) -> Result<Self, FrameError> {
+        Self::nudged(low, high, azimuth, 0.0)
+    }
+
+    /// The same, moved basinwards by a tiny distance (m), and as little aside and around: where a shoreline lies along a wall
+    /// of the domain, or a set is symmetrical about something else, it is not any more.
+    pub fn nudged(low: DVec3, high: DVec3, azimuth: f64, by: f64) -> Result<Self, FrameError> {
         let (low, high) = (low.xy(), high.xy());
+        let azimuth = azimuth + TURNED * by / (high - low).max_element();
         if !azimuth.is_finite() {
             return Err(FrameError::Azimuth(azimuth));
         }
@@ -65,10 +75,11 @@ impl ClinoformFrame {
             return Err(FrameError::Domain { low, high });
         }
         let dip = azimuth_vector(azimuth);
+        let strike = DVec2::new(dip.y, -dip.x);
         let mut frame = Self {
-            centre: (low + high) / 2.0,
+            centre: (low + high) / 2.0 + by * (dip + ASIDE * strike),
             dip,
-            strike: DVec2::new(dip.y, -dip.x),
+            strike,
             corners: [DVec2::ZERO; 4],
             reach: 0.0,
             low,

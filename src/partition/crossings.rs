@@ -274,7 +274,9 @@ fn trace(
         doubts = search.doubts;
         search.branches
     } else {
+        let twins = regions.are_twins(sheets[0], sheets[1]);
         let mut search = Search::new(pair, clip, branches, found, &matters);
+        search.twins = twins;
         search.run();
         faults.undecided += search.undecided + usize::from(search.gave_up());
         search.branches

@@ -58,6 +58,13 @@ const UNCLEAR: f64 = 1e-7;
 /// Points of a straight or long smooth piece in a loop's polygon.
 const POLYGON: usize = 6;
 
+/// Loops narrower than this part of their length are looked at more closely.
+const NARROW: f64 = 1e-3;
+/// How far a polygon's chords may be from the curves, as a part of the loop's width.
+const SAG: f64 = 0.1;
+/// Most doublings of a polygon's points.
+const FINEST: usize = 7;
+
 struct Traced {
     faces: Vec<Face>,
     faults: Faults,
@@ -127,7 +134,7 @@ impl Tracer<'_> {
         for one in loops {
             let labels = links[one[0]].labels;
             faults.mixed_loops += usize::from(one.iter().any(|at| links[*at].labels != labels));
-            let polygon = self.polygon(&one, &links);
+            let polygon = self.fine_polygon(&one, &links);
             let area = signed_area(&polygon);
             let outline = Outline::new(polygon, area.abs());
             if area > 0.0 {
@@ -335,7 +342,45 @@ impl Tracer<'_> {
         }
     }
 
-    fn polygon(&self, one: &[usize], links: &[Link]) -> Vec<DVec2> {
+    /// A loop's polygon, so fine that its chords are nearer to the curves than the loop is narrow: a bed of a centimetre along
+    /// a wall of kilometres lies beside a coarse one.
+    fn fine_polygon(&self, one: &[usize], links: &[Link]) -> Vec<DVec2> {
+        let sheet = &self.geometry.regions.sheets[self.sheet];
+        let unit = DVec2::new(sheet.length(0), sheet.length(1));
+        let mut polygon = self.polygon(one, links, 1);
+        let around = |polygon: &[DVec2]| -> f64 {
+            let next = polygon.iter().cycle().skip(1);
+            let legs = polygon.iter().zip(next);
+            legs.map(|(a, b)| ((*b - *a) / unit).length()).sum()
+        };
+        let width = |polygon: &[DVec2]| {
+            2.0 * signed_area(polygon).abs() / (unit.x * unit.y) / around(polygon)
+        };
+        if width(&polygon) > NARROW * around(&polygon) {
+            return polygon;
+        }
+        for finer in (1..=FINEST).map(|step| 1 << step) {
+            let fine = self.polygon(one, links, finer);
+            // Every second point is new: how far is it from the chord that it halves?
+            let sag = fine
+                .chunks_exact(2)
+                .zip(polygon.iter().cycle().skip(1))
+                .map(|(own, next)| {
+                    let chord = (*next - own[0]) / unit;
+                    let off = chord.perp_dot((own[1] - own[0]) / unit).abs();
+                    off / chord.length().max(f64::MIN_POSITIVE)
+                })
+                .fold(0.0, f64::max);
+            polygon = fine;
+            if sag < SAG * width(&polygon) {
+                break;
+            }
+        }
+        polygon
+    }
+
+    /// A loop's polygon, with so many times the usual number of points.
+    fn polygon(&self, one: &[usize], links: &[Link], finer: usize) -> Vec<DVec2> {
         let mut polygon = Vec::new();
         for at in one {
             let half = &links[*at].half;
@@ -346,7 +391,7 @@ impl Tracer<'_> {
                 Source::Crossing(_) => 2,
                 Source::Edge(_) | Source::Pole(_) => 1,
             };
-            let each = if stops.len() < POLYGON { POLYGON } else { each };
+            let each = finer * if stops.len() < POLYGON { POLYGON } else { each };
             let mut ts: Vec<f64> = stops
                 .windows(2)
                 .flat_map(|pair| {

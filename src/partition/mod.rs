@@ -50,6 +50,7 @@ mod solve;
 mod topology;
 mod tracks;
 mod triples;
+mod twins;
 
 #[cfg(test)]
 mod tests;

@@ -98,6 +98,11 @@ impl Patch {
         }
     }
 
+    /// Its control points, u-major.
+    pub(super) fn controls(&self) -> impl Iterator<Item = DVec3> {
+        points(&self.net, self.rational)
+    }
+
     /// The elevations of its control points, u-major, with its orders.
     pub(super) fn elevations(&self) -> ([usize; 2], impl Iterator<Item = f64>) {
         let elevations = points(&self.net, self.rational).map(|p| p.z);

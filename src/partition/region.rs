@@ -1,5 +1,6 @@
 //! Regions: what the sheets bound, how the sheets of a region join, and whether a region holds a point.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -10,6 +11,7 @@ use super::edge::{Edge, Landing, Side};
 use super::pierce::Segment;
 use super::relations::Relations;
 use super::sheet::{BORDERS, Border, Sheet};
+use super::twins;
 use super::{Options, PartitionError};
 use crate::nurbs::enclosure::Enclosure;
 use crate::nurbs::{Curve, KnotVector, Surface};
@@ -92,6 +94,8 @@ pub(super) struct Regions {
     pub(super) domain: Bounds,
     /// What the rule says of them.
     pub(super) relations: Relations,
+    /// Pairs of sheets that run beside each other and do not meet there.
+    pub(super) twins: BTreeSet<[usize; 2]>,
     /// By region: its first sheet; then the number of all sheets.
     firsts: Vec<usize>,
 }
@@ -140,6 +144,7 @@ impl Regions {
             bounds: Vec::new(),
             domain,
             relations: Relations::new(count, options.meet, options.hides),
+            twins: BTreeSet::new(),
             firsts: vec![0],
         };
         let mut own = Vec::new();
@@ -183,6 +188,7 @@ impl Regions {
         for (sheet, border, curve) in open_borders {
             all.land(sheet, border, curve);
         }
+        all.twins = twins::apart(&all.sheets, &domain);
         Ok(all)
     }
 
@@ -202,11 +208,18 @@ impl Regions {
         self.sheets[a].lands_on.contains(&b) || self.sheets[b].lands_on.contains(&a)
     }
 
+    /// Whether two sheets run beside each other without meeting there.
+    pub(super) fn are_twins(&self, a: usize, b: usize) -> bool {
+        self.twins.contains(&[a.min(b), a.max(b)])
+    }
+
     /// Whether the curve of two sheets is to be looked for on a third one: not where that lands on either of them, or
     /// either on it, which is known; and not if it matters to neither.
     pub(super) fn may_pierce(&self, ends: [usize; 2], third: usize) -> bool {
         let region = self.sheets[third].region;
-        !ends.iter().any(|end| self.touch(*end, third))
+        !ends
+            .iter()
+            .any(|end| self.touch(*end, third) || self.are_twins(*end, third))
             && ends
                 .iter()
                 .any(|end| self.relations.meet(self.sheets[*end].region, region))

@@ -37,14 +37,14 @@ impl Scalar {
     /// The same polynomial over another rectangle.
     pub(super) fn over(&self, range: [[f64; 2]; 2]) -> Self {
         let mut part = self.clone();
-        for axis in 0..2 {
-            if part.range[axis] == range[axis] {
+        for (axis, wanted) in range.into_iter().enumerate() {
+            if part.range[axis] == wanted {
                 continue;
             }
             let [from, to] = part.range[axis];
-            let [s, t] = range[axis].map(|x| (x - from) / (to - from));
+            let [s, t] = wanted.map(|x| (x - from) / (to - from));
             part.each_line(axis, |line| restrict(line, s, t));
-            part.range[axis] = range[axis];
+            part.range[axis] = wanted;
         }
         part
     }
@@ -174,10 +174,12 @@ fn halves(line: &[f64]) -> [Row; 2] {
 
 fn restrict(line: &mut Row, s: f64, t: f64) {
     if t != 1.0 {
-        *line = cut(line, t)[0].clone();
+        let [before, _] = cut(line, t);
+        *line = before;
     }
     if s != 0.0 && t != 0.0 {
-        *line = cut(line, s / t)[1].clone();
+        let [_, after] = cut(line, s / t);
+        *line = after;
     }
 }
 
@@ -272,9 +274,9 @@ mod tests {
         for k in 0..3 {
             for l in 0..4 {
                 let mut c = 0.0;
-                for i in 0..=k {
-                    for j in 0..=l {
-                        c += choose(k, i) / choose(2, i) * choose(l, j) / choose(3, j) * a[i][j];
+                for (i, row) in a.iter().enumerate().take(k + 1) {
+                    for (j, own) in row.iter().enumerate().take(l + 1) {
+                        c += choose(k, i) / choose(2, i) * choose(l, j) / choose(3, j) * own;
                     }
                 }
                 coefficients.push(c);

@@ -34,6 +34,8 @@ pub(super) struct Search<'a, F> {
     pub(super) found: F,
     /// Whether both regions may matter at a place; elsewhere sheets may come as near as they like.
     matters: &'a dyn Fn(DVec3) -> bool,
+    /// Whether the sheets are known not to meet at or near equal parameters.
+    pub(super) twins: bool,
     /// Places where the sheets come too near each other to decide.
     pub(super) undecided: usize,
     halvings: usize,
@@ -53,6 +55,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             branches,
             found,
             matters,
+            twins: false,
             undecided: 0,
             halvings: 0,
         }
@@ -72,7 +75,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
-                if !apart(a.patch(p), b.patch(q), self.slack()) {
+                let beside = self.twins && are_beside(a.patch(p), b.patch(q));
+                if !beside && !apart(a.patch(p), b.patch(q), self.slack()) {
                     self.patches(&a.facet(p), &b.facet(q));
                 }
             }
@@ -134,10 +138,13 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             a.lean() > b.lean()
         };
         let (halved, other) = if first { (a, b) } else { (b, a) };
-        let slack = self.slack();
+        let (slack, twins) = (self.slack(), self.twins);
         halved.halve(
             |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
-            |half| !apart(half, &other.patch, slack),
+            |half| {
+                let beside = twins && are_beside(half, &other.patch);
+                !beside && !apart(half, &other.patch, slack)
+            },
             |half| {
                 if first {
                     self.patches(half, b);
@@ -272,6 +279,15 @@ fn nearest(patch: &Patch, point: DVec3) -> [f64; 2] {
         v = (v + (uu * rv - uv * ru) / determinant).clamp(patch.v[0], patch.v[1]);
     }
     [u, v]
+}
+
+/// Whether the parameters of patches overlap or touch.
+fn are_beside(a: &Patch, b: &Patch) -> bool {
+    let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| {
+        let slack = 1e-9 * (b - a).max(d - c);
+        a <= d + slack && c <= b + slack
+    };
+    near(a.u, b.u) && near(a.v, b.v)
 }
 
 /// Whether a plane along either patch separates both, by more than the slack.

@@ -6,6 +6,8 @@
 
 mod samples;
 
+use glam::DVec3;
+
 use super::Options;
 use super::kernel::{BridgeError, Cancel, FaceSample, Solids, Threads, defects};
 use super::measure::Measured;
@@ -14,10 +16,12 @@ use crate::model::plan::AssemblyPlan;
 
 /// The model's tolerance: what shells are built to (m).
 const TOLERANCE: f64 = super::shapes::EXACT;
-/// Mean distance by which the skin may be off in the sum of volumes (m). Far below [`TOLERANCE`]: inner
-/// faces cancel, so only the ends of fitted curves on the skin count (measured: up to 2e-9), and a lost
-/// sliver of 0.05 m³ in a belt of 1000 m × 1000 m × 60 m must show.
-const SUM_TOLERANCE: f64 = 4e-9;
+/// Mean distance by which the skin may be off in the sum of volumes, as a share of the domain's diagonal. Far below
+/// [`TOLERANCE`]: inner faces cancel, so only the ends of fitted curves on the skin count (measured: up to 2e-9 m in a
+/// domain of a kilometre), and a lost sliver of 0.05 m³ in a belt of 1000 m × 1000 m × 60 m must show.
+const SUM_TOLERANCE: f64 = 3e-12;
+/// Roundings of the farthest coordinate, by which planes are off too.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 /// Relative error of the kernel's integrals.
 const KERNEL_VOLUME: f64 = 1e-6;
 /// The domain's argument among the kernel's arguments: its block, and the base and top that bound it there.
@@ -197,6 +201,13 @@ impl Prover<'_> {
         &self.plan.names[volume]
     }
 
+    /// Mean distance by which the skin may be off in the sum of volumes (m).
+    fn off(&self) -> f64 {
+        let (low, high) = (self.plan.low(), self.plan.high());
+        let farthest = low.abs().max(high.abs()).max_element();
+        SUM_TOLERANCE * (high - low).length() + ROUNDINGS * farthest
+    }
+
     /// Volumes sum to the domain's.
     fn volume_sum(&self) -> Check {
         let domain = self.plan.extent.volume();
@@ -204,7 +215,7 @@ impl Prover<'_> {
         Check {
             name: "volumes sum to the domain's (m³)",
             measured: (sum - domain).abs(),
-            bound: 2.0 * SUM_TOLERANCE * self.measured.area,
+            bound: 2.0 * self.off() * self.measured.area + self.measured.volume_error,
             detail: format!("{} solids", self.measured.pieces.len()),
         }
     }
@@ -233,7 +244,7 @@ impl Prover<'_> {
         Check {
             name: "outer faces cover the domain's skin (m²)",
             measured: (sum - skin).abs(),
-            bound: 1e-8 * skin,
+            bound: 1e-8 * skin + self.measured.outer_error + self.plan.extent.skin_error(),
             detail: format!("{skin} m²"),
         }
     }
@@ -280,10 +291,15 @@ impl Prover<'_> {
     fn kernel_volumes(&self) -> Result<Check, ProofError> {
         let measured = Measured::of_solids(self.solids, self.plan)?;
         let of_solid = |of: &Measured| {
-            let mut sizes: Vec<(usize, usize, f64)> = of
+            // Thin pieces have much area for their volume: that of their box is a fair measure of it.
+            let area = |(low, high): (DVec3, DVec3)| {
+                let size = high - low;
+                2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
+            };
+            let mut sizes: Vec<(usize, usize, f64, f64)> = of
                 .pieces
                 .iter()
-                .map(|piece| (piece.solid, piece.volume, piece.size))
+                .map(|piece| (piece.solid, piece.volume, piece.size, area(piece.bounds)))
                 .collect();
             sizes.sort_by_key(|size| size.0);
             sizes
@@ -293,8 +309,7 @@ impl Prover<'_> {
             .iter()
             .zip(&theirs)
             .map(|(a, b)| {
-                let area = 6.0 * a.2.abs().powf(2.0 / 3.0);
-                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * area;
+                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * a.3;
                 ((a.2 - b.2).abs() / bound, a.1, a.2, b.2)
             })
             .max_by(|a, b| a.0.total_cmp(&b.0))

@@ -27,6 +27,21 @@ impl From<Option<&Domain>> for Extent {
     }
 }
 
+/// Magnitudes that programs write where there are no data.
+const NO_DATA: [f64; 9] = [
+    999.0,
+    999.25,
+    9999.0,
+    9_999.25,
+    32_768.0,
+    99_999.0,
+    999_999.0,
+    9_999_900.0,
+    1e30,
+];
+/// Heights outside of the domain by more than this many times its height are no heights.
+const ABSURD: f64 = 100.0;
+
 impl Checker<'_> {
     /// A surface; `what` names it, as `the surface of feature "tarbert"`.
     pub(super) fn surface(
@@ -83,8 +98,52 @@ impl Checker<'_> {
             checker.scattered(node, at, tolerance, (what, extent))
         });
         let surface = level.or(dipping).or(grid).or(points)?;
+        if self.is_no_data(node, &surface, what, extent) {
+            return None;
+        }
         self.note_beyond(node, &surface, what, extent);
         (forms.len() == 1).then_some(surface)
+    }
+
+    /// Whether a height is no height but stands for missing data; that is told. A spline through it would throw the surface
+    /// about for many nodes around.
+    fn is_no_data(
+        &mut self,
+        node: NodeId,
+        surface: &HorizonSurface,
+        what: &str,
+        extent: Extent,
+    ) -> bool {
+        let Some([low, high]) = extent.z else {
+            return false;
+        };
+        let foreign = |z: &&f64| {
+            let outside = (low - **z).max(**z - high) / (high - low);
+            let is_usual = NO_DATA.contains(&z.abs());
+            outside > ABSURD || is_usual && outside > 1.0
+        };
+        let found: Vec<f64> = match surface {
+            HorizonSurface::Grid { heights, .. } => {
+                heights.iter().flatten().filter(foreign).copied().collect()
+            }
+            HorizonSurface::Points { points, .. } => {
+                let heights = points.iter().map(|point| &point[2]);
+                heights.filter(foreign).copied().collect()
+            }
+            _ => return false,
+        };
+        let Some(first) = found.first() else {
+            return false;
+        };
+        self.reader.wrong(
+            node,
+            format!(
+                "{what} has {} height(s) far outside of the domain's z range from {low} to {high}, such as {first}",
+                found.len()
+            ),
+            "if that means that there are no data, give the nodes that have some as `points`; else correct it",
+        );
+        true
     }
 
     fn form(

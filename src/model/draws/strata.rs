@@ -106,12 +106,12 @@ pub(in crate::model) fn above(horizon: &Horizon, domain: &Domain) -> Result<Arc<
         .map_err(|error| error.to_string())
 }
 
-/// Draws a clinoform set between two horizons.
+/// Draws a clinoform set between two horizons, moved basinwards by a tiny distance (m).
 pub(in crate::model) fn clinoforms(
     spec: &ClinoformsSpec,
     domain: &Domain,
-    base: &Horizon,
-    top: &Horizon,
+    [base, top]: [&Horizon; 2],
+    nudge: f64,
     key: Key<'_>,
 ) -> Result<DrawnSet, Rejected> {
     attempt(key, |draws| {
@@ -138,7 +138,7 @@ pub(in crate::model) fn clinoforms(
         }
         let set = Set {
             spec,
-            frame: ClinoformFrame::new(low, high, azimuth.to_radians()).map_err(wrong)?,
+            frame: ClinoformFrame::nudged(low, high, azimuth.to_radians(), nudge).map_err(wrong)?,
             unit: ClinoformUnit::new(base.clone(), top.clone(), low, high).map_err(wrong)?,
             shoreline,
             exponent,

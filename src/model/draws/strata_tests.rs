@@ -56,7 +56,7 @@ fn spec(model: &Model) -> &ClinoformsSpec {
 
 fn draw(model: &Model, spec: &ClinoformsSpec) -> Result<DrawnSet, Rejected> {
     let [base, top] = model.domain.z.map(|z| Horizon::flat(z).unwrap());
-    clinoforms(spec, &model.domain, &base, &top, KEY)
+    clinoforms(spec, &model.domain, [&base, &top], 0.0, KEY)
 }
 
 /// The nodes of many boundaries, and Q.

@@ -42,6 +42,10 @@ pub(super) struct Listing<'a> {
     pub(super) bounds: [Option<Horizon>; 2],
     /// What was drawn for them.
     pub(super) drawn: Vec<(String, f64)>,
+    /// By how much contacts that coincide are moved apart for each step in age (m).
+    step: f64,
+    /// Clinoform sets so far.
+    sets: u32,
     /// The unit above the last horizon so far.
     open: usize,
     /// Draws that were rejected, by feature; those of the domain have none.
@@ -91,6 +95,8 @@ impl<'a> Listing<'a> {
             horizons,
             bounds: [None, None],
             drawn: Vec::new(),
+            step,
+            sets: 0,
             open: BACKGROUND,
         };
         list.bounds = [

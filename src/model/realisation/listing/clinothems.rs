@@ -80,7 +80,10 @@ impl Listing<'_> {
         let feature = &self.model.features[index];
         let [base, top] = self.unit(feature, spec, parent.map(|parent| parent.0))?;
         let domain = &self.model.domain;
-        let draw = |key: draws::Key<'_>| strata::clinoforms(spec, domain, &base, &top, key);
+        self.sets += 1;
+        let nudge = f64::from(self.sets) * self.step;
+        let draw =
+            |key: draws::Key<'_>| strata::clinoforms(spec, domain, [&base, &top], nudge, key);
         let (set, reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
         let rejected = reasons.into_iter().map(|reason| (Some(index), reason));
         self.rejected.extend(rejected);
