@@ -491,8 +491,18 @@ fn what_is_hard_to_mesh_is_told_with_what_to_set() {
         .filter_map(|one| Some((width(one)?.1, realisation.volumes[one.volume].name.as_str())))
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .unwrap();
-    let size = format!("({:.1} m for {}:", 0.5 * narrowest.0, narrowest.1);
+    let size = format!(
+        "`Mesh.MeshSizeMax = {:.1}` (half the width of the narrowest one, {})",
+        0.5 * narrowest.0,
+        narrowest.1
+    );
     assert!(told.len() == 2 && told[0].contains(&size), "{told:?}");
+    // A width that is not drawn counts, too.
+    let given = advice(&["feature.channel.width=12"]);
+    assert!(
+        given[0].contains("`Mesh.MeshSizeMax = 6.0` (half"),
+        "{given:?}"
+    );
     assert!(told[1].starts_with("lower, upper: ") && told[1].contains("`toe = 0.3`"));
     // What it says to set is what makes it silent.
     let lower = advice(&["feature.lower.toe=0.3"]);

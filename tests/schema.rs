@@ -9,13 +9,16 @@
 #[path = "assembled/checked.rs"]
 mod checked;
 
-use clinothem::model::{Model, schema};
+use clinothem::model::{Format, Model, Source, schema};
 use serde_json::Value;
 
 const GOOD: &str = include_str!("bad_models/good.toml");
 
 /// One of everything that the format has.
 const FULL: &str = include_str!("bad_models/full.toml");
+
+/// Several slips at once.
+const SLIPS: &str = include_str!("bad_models/slips.toml");
 
 /// Horizons and clinoforms.
 const SHOREFACE: &str = include_str!("bad_models/shoreface.toml");
@@ -159,6 +162,244 @@ fn the_schema_refuses_slips_in_horizons_and_clinoforms() {
     }
 }
 
+/// Where a validator says that a text is wrong, each place once.
+fn places(text: &str) -> Vec<String> {
+    let validator = jsonschema::validator_for(&schema()).unwrap();
+    let mut places: Vec<String> = validator
+        .iter_errors(&as_json(text))
+        .map(|error| error.instance_path().to_string())
+        .collect();
+    places.sort();
+    places.dedup();
+    places
+}
+
+#[test]
+fn a_validator_points_at_the_wrong_key_or_value_and_at_nothing_else() {
+    // Editors underline what a validator points at.
+    for (good, find, replace, place) in [
+        (GOOD, "seed = 7", "seeds = 7", "/seeds"),
+        (GOOD, "seed = 7", "seed = -7", "/seed"),
+        (GOOD, "x = [0, 1000]", "xx = [0, 1000]", "/domain/xx"),
+        (GOOD, "x = [0, 1000]", "x = [0, \"1 km\"]", "/domain/x/1"),
+        (
+            GOOD,
+            "color = \"#9a8f78\"",
+            "colour = \"#9a8f78\"",
+            "/facies/mud/colour",
+        ),
+        (
+            GOOD,
+            "porosity = 0.08",
+            "porosity = 8",
+            "/facies/mud/porosity",
+        ),
+        (
+            GOOD,
+            "[0.5, 0.5, 0.01]",
+            "\"500 mD\"",
+            "/facies/mud/permeability",
+        ),
+        (
+            GOOD,
+            "[0.5, 0.5, 0.01]",
+            "{ lognormal = [500, 200] }",
+            "/facies/mud/permeability",
+        ),
+        (
+            GOOD,
+            "[0.5, 0.5, 0.01]",
+            "[0.5, -0.5, 0.01]",
+            "/facies/mud/permeability/1",
+        ),
+        (
+            GOOD,
+            "kind = \"channel\"",
+            "kind = \"chanel\"",
+            "/feature/0/kind",
+        ),
+        (GOOD, "width = 50", "widht = 50", "/feature/0/widht"),
+        (GOOD, "width = 50", "", "/feature/0"),
+        (GOOD, "kind = \"channel\"", "", "/feature/0"),
+        (GOOD, "width = 50", "width = \"50 m\"", "/feature/0/width"),
+        (GOOD, "width = 50", "width = {}", "/feature/0/width"),
+        (
+            GOOD,
+            "width = 50",
+            "width = { unifrom = [1, 2] }",
+            "/feature/0/width/unifrom",
+        ),
+        (
+            GOOD,
+            "width = 50",
+            "width = { triangular = [1, 2] }",
+            "/feature/0/width/triangular",
+        ),
+        (
+            GOOD,
+            "width = 50",
+            "width = { uniform = [1, 2], min = 1 }",
+            "/feature/0/width",
+        ),
+        (
+            GOOD,
+            "width = 50",
+            "width = { uniform = [1, 2], normal = [1, 2] }",
+            "/feature/0/width",
+        ),
+        (
+            GOOD,
+            "width = 50",
+            "width = { expression = 5 }",
+            "/feature/0/width/expression",
+        ),
+        (
+            GOOD,
+            "width = 50",
+            "width = [[0, 40], [0.5, \"x\"]]",
+            "/feature/0/width/1/1",
+        ),
+        (
+            GOOD,
+            "width = 50",
+            "width = [[0, 40], [1.5, 40]]",
+            "/feature/0/width/1/0",
+        ),
+        (GOOD, "count = 3", "count = 2.5", "/feature/0/count"),
+        (
+            GOOD,
+            "count = 3",
+            "removes = \"second\"",
+            "/feature/0/removes",
+        ),
+        (
+            GOOD,
+            "count = 3",
+            "removes = [\"a\", { knid = \"channel\" }]",
+            "/feature/0/removes/1/knid",
+        ),
+        (
+            GOOD,
+            "count = 3",
+            "removes = [{ level = 0 }]",
+            "/feature/0/removes/0/level",
+        ),
+        (
+            GOOD,
+            "count = 3",
+            "semi_axes = [1, 2, 3]",
+            "/feature/0/semi_axes",
+        ),
+        (
+            GOOD,
+            "azimuth_deg = 80",
+            "azimuth = 80",
+            "/feature/1/trajectory/azimuth",
+        ),
+        (
+            GOOD,
+            "kind = \"line\"",
+            "kind = \"lime\"",
+            "/feature/0/trajectory/kind",
+        ),
+        (
+            GOOD,
+            "from = [0, 500]",
+            "from = [0, 500], range = [0, 1]",
+            "/feature/0/trajectory/range",
+        ),
+        (
+            SHOREFACE,
+            "base = { level = -55 }",
+            "base = -55",
+            "/domain/base",
+        ),
+        (
+            SHOREFACE,
+            "base = { level = -55 }",
+            "base = { lvel = -55 }",
+            "/domain/base/lvel",
+        ),
+        (
+            SHOREFACE,
+            "base = { level = -55 }",
+            "base = { level = \"-55\" }",
+            "/domain/base/level",
+        ),
+        (
+            SHOREFACE,
+            "dip_deg = 1",
+            "dip = 1",
+            "/domain/top/dipping/dip",
+        ),
+        (SHOREFACE, "y = [-10, 700], ", "", "/feature/0/surface/grid"),
+        (
+            SHOREFACE,
+            "heights = [[-42",
+            "heights = [[\"-42\"",
+            "/feature/0/surface/grid/heights/0/0",
+        ),
+        (SHOREFACE, ", tolerance = 0.1", "", "/feature/3/surface"),
+        (SHOREFACE, "top = \"upper\"", "top = 5", "/feature/2/top"),
+        (
+            SHOREFACE,
+            "length = { uniform = [150, 900] }",
+            "",
+            "/feature/2",
+        ),
+        (
+            SHOREFACE,
+            "\"onlapping\"",
+            "\"conformable\"",
+            "/feature/3/relation",
+        ),
+        (
+            SHOREFACE,
+            "\"zigzag\"",
+            "\"zig-zag\"",
+            "/feature/2/interfingering",
+        ),
+        (SHOREFACE, "name = \"lsf\", ", "", "/feature/2/belts/1"),
+        (
+            SHOREFACE,
+            "width = 120",
+            "widht = 120",
+            "/feature/2/belts/1/widht",
+        ),
+    ] {
+        assert!(good.contains(find), "{find}");
+        assert_eq!(
+            places(&good.replacen(find, replace, 1)),
+            [place],
+            "{replace}"
+        );
+    }
+}
+
+#[test]
+fn of_several_slips_each_has_its_own_place_in_schema_and_program_alike() {
+    let expected = [
+        ("/facies/mud/colour", "colour"),
+        ("/facies/mud/permeability", "permeability"),
+        ("/facies/mud/porosity", "porosity"),
+        ("/feature/0/trajectory/amplitud", "amplitud"),
+        ("/feature/0/widht", "widht"),
+    ];
+    assert_eq!(places(SLIPS), expected.map(|(place, _)| place));
+    let source = Source::from_text("slips.toml", SLIPS, Format::Toml);
+    let found = Model::check(&source).unwrap_err().to_json();
+    let lines: Vec<u64> = found["defects"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|defect| defect["line"].as_u64().unwrap())
+        .collect();
+    for (_, key) in expected {
+        let line = SLIPS.lines().position(|line| line.contains(key)).unwrap() + 1;
+        assert!(lines.contains(&(line as u64)), "{key}: {found:#}");
+    }
+}
+
 #[test]
 fn every_key_of_the_schema_has_a_description() {
     fn walk(value: &Value, path: &str, bare: &mut Vec<String>) {
@@ -167,7 +408,9 @@ fn every_key_of_the_schema_has_a_description() {
                 if let Some(Value::Object(properties)) = object.get("properties") {
                     for (key, property) in properties {
                         // The keys of distributions and selectors are described by the table they stand in.
-                        let described = property.get("description").is_some();
+                        // What is merely allowed is described where its schema is.
+                        let described =
+                            property.get("description").is_some() || *property == Value::Bool(true);
                         let small = ["id", "kind", "level", "facies", "expression"]
                             .contains(&key.as_str())
                             && properties.len() == 1;

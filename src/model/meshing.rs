@@ -1,6 +1,7 @@
-//! What of a realisation is hard to mesh with tetrahedra, and what to set.
+//! What of a realisation is hard to mesh with tetrahedra, and what to try.
 //!
-//! Measured with Gmsh; `docs/meshing.md` has the figures.
+//! Measured with Gmsh; `docs/meshing.md` has the figures. No size of elements is promised: how narrow the strips are that
+//! bodies leave of each other is known only when they are cut, and the figures know models that no size tried would do for.
 
 use super::realisation::{Instance, Realisation};
 use crate::features::body::Body;
@@ -17,23 +18,34 @@ pub fn advice(realisation: &Realisation) -> Vec<String> {
         .collect()
 }
 
-/// Channels thin out to nothing at their banks: facets of base and top cut each other unless they are small.
+/// Channels thin out to nothing at their banks, and leave strips of what they cut: facets on both sides cut each other
+/// unless they are small.
 fn channels(realisation: &Realisation) -> Option<String> {
     let width = |instance: &Instance| {
-        let drawn = instance.drawn.iter().find(|(name, _)| name == "width")?;
-        Some((drawn.1, instance.volume))
+        let Body::Trough(trough) = &instance.body else {
+            return None;
+        };
+        let [left, right] = trough.rims();
+        let across = |v: &f64| left.point(*v).distance(right.point(*v));
+        let narrowest = trough
+            .sections()
+            .iter()
+            .map(across)
+            .min_by(f64::total_cmp)?;
+        Some((narrowest, instance.volume))
     };
     let (width, volume) = realisation
         .instances
         .iter()
-        .filter(|instance| matches!(instance.body, Body::Trough(_)))
         .filter_map(width)
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
     let name = &realisation.volumes[volume].name;
     let size = 0.5 * width;
     Some(format!(
-        "channels thin out to nothing at their banks: Gmsh needs elements of about half the narrowest one's width \
-         ({size:.1} m for {name}: `Mesh.MeshSizeMax`) and `Mesh.Algorithm = 1`"
+        "channels thin out to nothing at their banks and cut narrow strips off each other; Gmsh fails there (“overlapping facets”, \
+         “a segment and a facet intersect”) while its elements are too large. Set `Mesh.Algorithm = 1`, begin with \
+         `Mesh.MeshSizeMax = {size:.1}` (half the width of the narrowest one, {name}), and halve it while Gmsh fails; no size is \
+         sure to do"
     ))
 }
 

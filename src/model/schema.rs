@@ -1,4 +1,10 @@
 //! The JSON Schema of the model file, for editors: completion, descriptions and most checks while typing.
+//!
+//! A value that may have several shapes has the keywords of all of them side by side: each speaks of its own type only
+//! (`properties` of tables, `items` of lists). `anyOf` and `oneOf` over tables would do, too, but of what fits none of them
+//! a validator can only say so of the whole table, and editors underline a whole feature for one wrong key. For the same
+//! reason an unknown key is refused at its own place, and what is missing is said of tables without unknown keys: where a
+//! key is misspelt, it is the misspelling that is wrong.
 
 use std::borrow::Cow;
 
@@ -18,7 +24,73 @@ use super::spec::{HorizonSurface, Selector};
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(ModelFile).to_value();
     forbid_null(&mut schema);
+    point_at_keys(&mut schema);
     schema
+}
+
+/// Makes closed tables refuse an unknown key at the key, and ask for what is missing only without such keys.
+fn point_at_keys(value: &mut Value) {
+    match value {
+        Value::Object(object) => {
+            object.values_mut().for_each(point_at_keys);
+            if object.get("additionalProperties") != Some(&Value::Bool(false)) {
+                return;
+            }
+            let words = "no such key here";
+            // The title shows in what validators print of `not`; `errorMessage` is what VS Code says instead.
+            let nothing = json!({ "not": { "title": words }, "errorMessage": words });
+            object.insert("additionalProperties".to_owned(), nothing);
+            let keys = object.get("properties").and_then(Value::as_object);
+            let known: Vec<&String> = keys.map(|keys| keys.keys().collect()).unwrap_or_default();
+            let known = json!({ "type": "object", "propertyNames": { "enum": known } });
+            let demands: Map<String, Value> = ["required", "oneOf", "dependentRequired"]
+                .into_iter()
+                .filter_map(|demand| Some((demand.to_owned(), object.remove(demand)?)))
+                .collect();
+            if !demands.is_empty() {
+                object.insert("if".to_owned(), known);
+                object.insert("then".to_owned(), Value::Object(demands));
+            }
+        }
+        Value::Array(values) => values.iter_mut().for_each(point_at_keys),
+        _ => {}
+    }
+}
+
+/// A table that has exactly one of several forms: each a key that tells it, and the keys that go with that one.
+fn forms(
+    description: &str,
+    properties: Map<String, Value>,
+    forms: &[(&str, &[&str])],
+) -> Map<String, Value> {
+    let telling = forms.iter().map(|(key, _)| json!({ "required": [key] }));
+    let mut table = object(json!({
+        "description": description,
+        "properties": properties,
+        "additionalProperties": false,
+        "oneOf": telling.collect::<Vec<_>>(),
+    }));
+    let mut together = Map::new();
+    for (key, others) in forms.iter().filter(|(_, others)| !others.is_empty()) {
+        together.insert((*key).to_owned(), json!(others));
+        together.extend(
+            others
+                .iter()
+                .map(|other| ((*other).to_owned(), json!([key]))),
+        );
+    }
+    if !together.is_empty() {
+        table.insert("dependentRequired".to_owned(), Value::Object(together));
+    }
+    table
+}
+
+/// The keys of a table's value.
+fn object(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(keys) => keys,
+        _ => Map::new(),
+    }
 }
 
 /// An absent key is left out, never null: drops the null that schemars allows for every optional key.
@@ -70,11 +142,13 @@ impl JsonSchema for Quantity {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let distribution = generator.subschema_for::<DistributionSchema>();
-        json_schema!({
-            "description": "A number, or a distribution that it is drawn from.",
-            "anyOf": [{ "type": "number" }, distribution],
-        })
+        let mut schema = generator.subschema_for::<DistributionSchema>();
+        schema.insert(
+            "description".to_owned(),
+            json!("A number, or a distribution that it is drawn from."),
+        );
+        schema.insert("type".to_owned(), json!(["number", "object"]));
+        schema
     }
 }
 
@@ -85,36 +159,35 @@ impl JsonSchema for Profile {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let quantity = generator.subschema_for::<Quantity>();
-        let distribution = generator.subschema_for::<DistributionSchema>();
-        json_schema!({
-            "description": "A quantity, or one that varies along the trajectory: a list of [fraction, quantity], or { expression = \"a formula in s\" }.",
-            "anyOf": [
-                { "type": "number" },
-                distribution,
-                {
-                    "description": "Linear between pairs [fraction of the trajectory from 0 to 1, quantity], in rising order.",
-                    "type": "array",
-                    "minItems": 1,
-                    "items": {
-                        "type": "array",
-                        "prefixItems": [{ "type": "number", "minimum": 0, "maximum": 1 }, quantity],
-                        "minItems": 2,
-                        "maxItems": 2,
-                    },
-                },
-                {
-                    "description": "A formula in s, the fraction of the trajectory, as \"30 + 10 * sin(2 * pi * s)\".",
-                    "type": "object",
-                    "properties": { "expression": { "type": "string" } },
-                    "required": ["expression"],
-                    "additionalProperties": false,
-                },
-            ],
-        })
+        let mut keys = distributions();
+        let expression = json!({
+            "description": "A formula in s, the fraction of the trajectory, as \"30 + 10 * sin(2 * pi * s)\".",
+            "type": "string",
+        });
+        keys.insert("expression".to_owned(), expression);
+        let mut table = forms(
+            "A quantity, or one that varies along the trajectory: a list of [fraction, quantity], or { expression = \"a formula in s\" }.",
+            keys,
+            &[&DISTRIBUTIONS[..], &[("expression", &[])]].concat(),
+        );
+        table.extend(truncation());
+        // Of a list: linear between its pairs, in rising order of the fractions.
+        table.extend(object(json!({
+            "type": ["number", "object", "array"],
+            "minItems": 1,
+            "items": {
+                "description": "[fraction of the trajectory from 0 to 1, quantity]",
+                "type": "array",
+                "prefixItems": [{ "type": "number", "minimum": 0, "maximum": 1 }, quantity],
+                "minItems": 2,
+                "maxItems": 2,
+            },
+        })));
+        table.into()
     }
 }
 
-/// Stands for the table of a distribution.
+/// Stands for the table of a distribution, which says nothing of what is no table.
 struct DistributionSchema;
 
 impl JsonSchema for DistributionSchema {
@@ -123,46 +196,53 @@ impl JsonSchema for DistributionSchema {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let numbers = |n: usize, description: &str| {
-            json!({
-                "description": description, "type": "array",
-                "items": { "type": "number" }, "minItems": n, "maxItems": n,
-            })
-        };
-        let only = |name: &str, value: Value| {
-            json!({
-                "type": "object", "properties": { name: value },
-                "required": [name], "additionalProperties": false,
-            })
-        };
-        let truncated = |name: &str, description: &str| {
-            json!({
-                "type": "object",
-                "properties": {
-                    name: numbers(2, description),
-                    "min": { "description": "Draws below are repeated.", "type": "number" },
-                    "max": { "description": "Draws above are repeated.", "type": "number" },
-                },
-                "required": [name],
-                "additionalProperties": false,
-            })
-        };
-        json_schema!({
-            "description": "A distribution that a number is drawn from.",
-            "anyOf": [
-                only("uniform", numbers(2, "[minimum, maximum]")),
-                only("triangular", numbers(3, "[minimum, most likely, maximum]")),
-                truncated("normal", "[mean, standard deviation]"),
-                truncated("lognormal", "[mean, standard deviation] of the quantity itself, not of its logarithm"),
-                only("discrete", json!({
-                    "description": "[value, …], all equally likely, or [[value, weight], …]",
-                    "type": "array",
-                    "minItems": 1,
-                    "items": { "anyOf": [{ "type": "number" }, numbers(2, "[value, weight]")] },
-                })),
-            ],
-        })
+        let mut table = forms(
+            "A distribution that a number is drawn from.",
+            distributions(),
+            &DISTRIBUTIONS,
+        );
+        table.extend(truncation());
+        table.into()
     }
+}
+
+/// The distributions' names.
+const DISTRIBUTIONS: [(&str, &[&str]); 5] = [
+    ("uniform", &[]),
+    ("triangular", &[]),
+    ("normal", &[]),
+    ("lognormal", &[]),
+    ("discrete", &[]),
+];
+
+/// The keys of all distributions.
+fn distributions() -> Map<String, Value> {
+    let numbers = |n: usize, description: &str| {
+        json!({
+            "description": description, "type": "array",
+            "items": { "type": "number" }, "minItems": n, "maxItems": n,
+        })
+    };
+    object(json!({
+        "uniform": numbers(2, "[minimum, maximum]"),
+        "triangular": numbers(3, "[minimum, most likely, maximum]"),
+        "normal": numbers(2, "[mean, standard deviation]"),
+        "lognormal": numbers(2, "[mean, standard deviation] of the quantity itself, not of its logarithm"),
+        "discrete": {
+            "description": "[value, …], all equally likely, or [[value, weight], …]",
+            "type": "array",
+            "minItems": 1,
+            "items": { "type": ["number", "array"], "items": { "type": "number" }, "minItems": 2, "maxItems": 2 },
+        },
+        "min": { "description": "Draws below are repeated.", "type": "number" },
+        "max": { "description": "Draws above are repeated.", "type": "number" },
+    }))
+}
+
+/// Only what has no ends of its own is truncated.
+fn truncation() -> Map<String, Value> {
+    let endless = json!({ "anyOf": [{ "required": ["normal"] }, { "required": ["lognormal"] }] });
+    object(json!({ "dependentSchemas": { "min": endless, "max": endless } }))
 }
 
 impl JsonSchema for Selector {
@@ -171,26 +251,23 @@ impl JsonSchema for Selector {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let pick = |key: &str, value: Value| {
-            json!({
-                "type": "object", "properties": { key: value },
-                "required": [key], "additionalProperties": false,
-            })
-        };
+        let words = ["older", "younger", "everything", "nothing"];
         json_schema!({
-            "anyOf": [
-                { "enum": ["older", "younger", "everything", "nothing"] },
-                {
-                    "type": "array",
-                    "items": { "anyOf": [
-                        { "description": "The id of a feature, or \"background\".", "type": "string" },
-                        pick("id", json!({ "type": "string" })),
-                        pick("kind", json!({ "type": "string" })),
-                        pick("level", json!({ "type": "integer", "minimum": 1 })),
-                        pick("facies", json!({ "type": "string" })),
-                    ] },
+            "type": ["string", "array"],
+            "anyOf": [{ "enum": words }, { "type": "array" }],
+            "items": {
+                "description": "The id of a feature, or \"background\"; or one of { id = … }, { kind = … }, { level = … }, { facies = … }.",
+                "type": ["string", "object"],
+                "properties": {
+                    "id": { "description": "The feature of this id.", "type": "string" },
+                    "kind": { "description": "All features of this kind.", "type": "string" },
+                    "level": { "description": "All features of this level.", "type": "integer", "minimum": 1 },
+                    "facies": { "description": "All features of this facies.", "type": "string" },
                 },
-            ],
+                "additionalProperties": false,
+                "minProperties": 1,
+                "maxProperties": 1,
+            },
         })
     }
 }
@@ -201,15 +278,19 @@ impl JsonSchema for HorizonSurface {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let level = generator.subschema_for::<Quantity>();
-        let dipping = generator.subschema_for::<DippingFile>();
-        let grid = generator.subschema_for::<GridFile>();
-        let table = |properties: Value, required: &[&str]| {
-            json!({
-                "type": "object", "properties": properties,
-                "required": required, "additionalProperties": false,
-            })
+        let about = |description: &str, mut schema: Schema| {
+            schema.insert("description".to_owned(), json!(description));
+            schema
         };
+        let level = about(
+            "Its elevation in metres.",
+            generator.subschema_for::<Quantity>(),
+        );
+        let dipping = about("A plane.", generator.subschema_for::<DippingFile>());
+        let grid = about(
+            "Heights at the nodes of a regular grid.",
+            generator.subschema_for::<GridFile>(),
+        );
         let points = json!({
             "description": "Scattered points [x, y, z], at least three, not on one line in plan.",
             "type": "array",
@@ -220,53 +301,113 @@ impl JsonSchema for HorizonSurface {
             "description": "How far the surface may pass above or below a point, in metres.",
             "type": "number", "exclusiveMinimum": 0,
         });
-        json_schema!({
-            "description": "A surface over the whole domain: level, dipping, a grid of heights, or scattered points.",
-            "anyOf": [
-                table(json!({ "level": { "description": "Its elevation in metres.", "anyOf": [level] } }), &["level"]),
-                table(json!({ "dipping": { "description": "A plane.", "anyOf": [dipping] } }), &["dipping"]),
-                table(json!({ "grid": { "description": "Heights at the nodes of a regular grid.", "anyOf": [grid] } }), &["grid"]),
-                table(json!({ "points": points, "tolerance": tolerance }), &["points", "tolerance"]),
+        let mut table = forms(
+            "A surface over the whole domain: level, dipping, a grid of heights, or scattered points.",
+            object(json!({
+                "level": level, "dipping": dipping, "grid": grid, "points": points, "tolerance": tolerance,
+            })),
+            &[
+                ("level", &[]),
+                ("dipping", &[]),
+                ("grid", &[]),
+                ("points", &["tolerance"]),
             ],
-        })
+        );
+        table.insert("type".to_owned(), json!("object"));
+        table.into()
     }
 }
 
-/// One table made of several structs and a fixed `kind`.
-fn merged(kind: &str, description: &str, parts: &[Schema]) -> Value {
-    let mut properties = Map::new();
-    let mut required = Vec::new();
-    for part in parts {
-        if let Some(Value::Object(more)) = part.get("properties") {
-            properties.extend(more.clone());
-        }
-        if let Some(Value::Array(more)) = part.get("required") {
-            required.extend(more.iter().cloned());
+/// A table whose `kind` says which keys it has besides those that all have.
+///
+/// The keys' schemas stand in the table itself, where editors look for what to complete; what is to be there, and what not,
+/// depends on the kind. A key that two kinds mean differently has its schema with the kind.
+fn by_kind<const N: usize>(common: &Schema, kinds: [(&str, Schema); N]) -> Schema {
+    let mut properties = keys(common);
+    for (_, part) in &kinds {
+        for key in keys(part).keys() {
+            properties.insert(key.clone(), shared(key, &kinds).0);
         }
     }
-    properties.insert(
-        "kind".to_owned(),
-        json!({ "description": description, "const": kind }),
-    );
-    json!({
-        "title": kind,
-        "description": description,
+    let about = kinds
+        .iter()
+        .map(|(kind, part)| format!("{kind}: {}", description(part)));
+    let kind = json!({
+        "description": about.collect::<Vec<_>>().join("\n"),
+        "enum": kinds.iter().map(|(kind, _)| *kind).collect::<Vec<_>>(),
+    });
+    properties.insert("kind".to_owned(), kind);
+    let mut table = Map::new();
+    for (kind, part) in kinds.iter().rev() {
+        let allowed = keys(common).into_iter().chain(keys(part));
+        let allowed = allowed.map(|(key, schema)| {
+            let has_it_here = keys(part).contains_key(&key) && !shared(&key, &kinds).1;
+            (
+                key,
+                if has_it_here {
+                    schema
+                } else {
+                    Value::Bool(true)
+                },
+            )
+        });
+        let required: Vec<Value> = [common, part]
+            .iter()
+            .filter_map(|part| part.get("required")?.as_array().cloned())
+            .flatten()
+            .collect();
+        let rest = std::mem::take(&mut table);
+        table = object(json!({
+            "if": { "properties": { "kind": { "const": kind } }, "required": ["kind"] },
+            "then": {
+                "title": kind,
+                "properties": allowed.collect::<Map<_, _>>(),
+                "required": required,
+                "additionalProperties": false,
+            },
+            "else": rest,
+        }));
+    }
+    table.extend(object(json!({
         "type": "object",
         "properties": properties,
-        "required": required,
-        "additionalProperties": false,
-    })
+        "required": ["kind"],
+    })));
+    table.into()
 }
 
-/// One table for each kind, with what all have.
-fn variants<const N: usize>(common: &Schema, kinds: [(&str, Schema); N]) -> Vec<Value> {
-    kinds
-        .into_iter()
-        .map(|(kind, part)| {
-            let about = description(&part);
-            merged(kind, &about, &[common.clone(), part])
+/// A key's schema if all kinds that have it mean the same, or no more than what each says of it; and whether they do.
+fn shared(key: &str, kinds: &[(&str, Schema)]) -> (Value, bool) {
+    let having: Vec<(&str, Map<String, Value>, String)> = kinds
+        .iter()
+        .filter_map(|(kind, part)| {
+            let mut schema = object(keys(part).remove(key)?);
+            let words = schema.remove("description").unwrap_or_default();
+            Some((*kind, schema, words.as_str().unwrap_or_default().to_owned()))
         })
-        .collect()
+        .collect();
+    let same = having.windows(2).all(|pair| pair[0].1 == pair[1].1);
+    let words: Vec<String> = match having.as_slice() {
+        [(_, _, words)] => vec![words.clone()],
+        several => several
+            .iter()
+            .map(|(kind, _, words)| format!("{kind}: {words}"))
+            .collect(),
+    };
+    let mut shown = match having.into_iter().next() {
+        Some((_, schema, _)) if same => schema,
+        _ => Map::new(),
+    };
+    shown.insert("description".to_owned(), json!(words.join("\n")));
+    (Value::Object(shown), same)
+}
+
+/// The keys of a struct's table.
+fn keys(schema: &Schema) -> Map<String, Value> {
+    schema
+        .get("properties")
+        .cloned()
+        .map_or_else(Map::new, object)
 }
 
 fn description(schema: &Schema) -> String {
@@ -282,7 +423,7 @@ pub(crate) fn features(generator: &mut SchemaGenerator) -> Schema {
         ("horizon", HorizonFile::json_schema(generator)),
         ("clinoforms", ClinoformsFile::json_schema(generator)),
     ];
-    json_schema!({ "type": "array", "items": { "oneOf": variants(&common, kinds) } })
+    json_schema!({ "type": "array", "items": by_kind(&common, kinds) })
 }
 
 pub(crate) fn trajectory(generator: &mut SchemaGenerator) -> Schema {
@@ -293,7 +434,7 @@ pub(crate) fn trajectory(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    json_schema!({ "oneOf": variants(&common, kinds) })
+    by_kind(&common, kinds)
 }
 
 pub(crate) fn origin(_: &mut SchemaGenerator) -> Schema {
@@ -304,22 +445,14 @@ pub(crate) fn origin(_: &mut SchemaGenerator) -> Schema {
 
 pub(crate) fn permeability(_: &mut SchemaGenerator) -> Schema {
     json_schema!({
-        "anyOf": [
-            { "type": "number", "minimum": 0 },
-            { "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
-            { "type": "null" },
-        ],
+        "type": ["number", "array"], "minimum": 0,
+        "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3,
     })
 }
 
 /// Any further rock property.
 pub(crate) fn property() -> Value {
-    json!({
-        "anyOf": [
-            { "type": "number" },
-            { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 },
-        ],
-    })
+    json!({ "type": ["number", "array"], "items": { "type": "number" }, "minItems": 3, "maxItems": 3 })
 }
 
 pub(crate) fn section_origin(_: &mut SchemaGenerator) -> Schema {

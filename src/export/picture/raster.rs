@@ -56,6 +56,8 @@ pub(super) struct Projected {
     pub(super) object: u32,
     page: [DVec2; 3],
     depth: [f64; 3],
+    /// How much nearer than it is it counts as.
+    bias: f64,
     normals: [DVec3; 3],
     /// One over twice the signed area.
     per_area: f64,
@@ -79,6 +81,7 @@ impl Projected {
             object,
             page,
             depth,
+            bias,
             normals: corners.map(|corner| corner.normal),
             per_area: 1.0 / area,
             slope: DVec2::new(db * ac.y - dc * ab.y, dc * ab.x - db * ac.x) / area,
@@ -313,7 +316,10 @@ impl Scene<'_> {
                 let mut label = OPEN;
                 match (&object.skin, self.drawing.asked) {
                     (Skin::Owned(face), Some(asked)) => {
-                        label = face.label(self.eye.stretched_at(p, depth), asked)?;
+                        // Where the face is, not where it counts as: that is outside of the domain, where nobody
+                        // owns anything.
+                        let place = self.eye.stretched_at(p, depth + triangle.bias);
+                        label = face.label(place, asked)?;
                         if label == OPEN {
                             continue;
                         }
