@@ -162,6 +162,54 @@ fn the_schema_refuses_slips_in_horizons_and_clinoforms() {
     }
 }
 
+/// In a good file, this in the place of that, and what a validator should point at.
+#[rustfmt::skip]
+const POINTED: &[(&str, &str, &str, &str)] = &[
+    (GOOD, "seed = 7", "seeds = 7", "/seeds"),
+    (GOOD, "seed = 7", "seed = -7", "/seed"),
+    (GOOD, "x = [0, 1000]", "xx = [0, 1000]", "/domain/xx"),
+    (GOOD, "x = [0, 1000]", "x = [0, \"1 km\"]", "/domain/x/1"),
+    (GOOD, "color = \"#9a8f78\"", "colour = \"#9a8f78\"", "/facies/mud/colour"),
+    (GOOD, "porosity = 0.08", "porosity = 8", "/facies/mud/porosity"),
+    (GOOD, "[0.5, 0.5, 0.01]", "\"500 mD\"", "/facies/mud/permeability"),
+    (GOOD, "[0.5, 0.5, 0.01]", "{ lognormal = [500, 200] }", "/facies/mud/permeability"),
+    (GOOD, "[0.5, 0.5, 0.01]", "[0.5, -0.5, 0.01]", "/facies/mud/permeability/1"),
+    (GOOD, "kind = \"channel\"", "kind = \"chanel\"", "/feature/0/kind"),
+    (GOOD, "width = 50", "widht = 50", "/feature/0/widht"),
+    (GOOD, "width = 50", "", "/feature/0"),
+    (GOOD, "kind = \"channel\"", "", "/feature/0"),
+    (GOOD, "width = 50", "width = \"50 m\"", "/feature/0/width"),
+    (GOOD, "width = 50", "width = {}", "/feature/0/width"),
+    (GOOD, "width = 50", "width = { unifrom = [1, 2] }", "/feature/0/width/unifrom"),
+    (GOOD, "width = 50", "width = { triangular = [1, 2] }", "/feature/0/width/triangular"),
+    (GOOD, "width = 50", "width = { uniform = [1, 2], min = 1 }", "/feature/0/width"),
+    (GOOD, "width = 50", "width = { uniform = [1, 2], normal = [1, 2] }", "/feature/0/width"),
+    (GOOD, "width = 50", "width = { expression = 5 }", "/feature/0/width/expression"),
+    (GOOD, "width = 50", "width = [[0, 40], [0.5, \"x\"]]", "/feature/0/width/1/1"),
+    (GOOD, "width = 50", "width = [[0, 40], [1.5, 40]]", "/feature/0/width/1/0"),
+    (GOOD, "count = 3", "count = 2.5", "/feature/0/count"),
+    (GOOD, "count = 3", "removes = \"second\"", "/feature/0/removes"),
+    (GOOD, "count = 3", "removes = [\"a\", { knid = \"channel\" }]", "/feature/0/removes/1/knid"),
+    (GOOD, "count = 3", "removes = [{ level = 0 }]", "/feature/0/removes/0/level"),
+    (GOOD, "count = 3", "semi_axes = [1, 2, 3]", "/feature/0/semi_axes"),
+    (GOOD, "azimuth_deg = 80", "azimuth = 80", "/feature/1/trajectory/azimuth"),
+    (GOOD, "kind = \"line\"", "kind = \"lime\"", "/feature/0/trajectory/kind"),
+    (GOOD, "from = [0, 500]", "from = [0, 500], range = [0, 1]", "/feature/0/trajectory/range"),
+    (SHOREFACE, "base = { level = -55 }", "base = -55", "/domain/base"),
+    (SHOREFACE, "base = { level = -55 }", "base = { lvel = -55 }", "/domain/base/lvel"),
+    (SHOREFACE, "base = { level = -55 }", "base = { level = \"-55\" }", "/domain/base/level"),
+    (SHOREFACE, "dip_deg = 1", "dip = 1", "/domain/top/dipping/dip"),
+    (SHOREFACE, "y = [-10, 700], ", "", "/feature/0/surface/grid"),
+    (SHOREFACE, "heights = [[-42", "heights = [[\"-42\"", "/feature/0/surface/grid/heights/0/0"),
+    (SHOREFACE, ", tolerance = 0.1", "", "/feature/3/surface"),
+    (SHOREFACE, "top = \"upper\"", "top = 5", "/feature/2/top"),
+    (SHOREFACE, "length = { uniform = [150, 900] }", "", "/feature/2"),
+    (SHOREFACE, "\"onlapping\"", "\"conformable\"", "/feature/3/relation"),
+    (SHOREFACE, "\"zigzag\"", "\"zig-zag\"", "/feature/2/interfingering"),
+    (SHOREFACE, "name = \"lsf\", ", "", "/feature/2/belts/1"),
+    (SHOREFACE, "width = 120", "widht = 120", "/feature/2/belts/1/widht"),
+];
+
 /// Where a validator says that a text is wrong, each place once.
 fn places(text: &str) -> Vec<String> {
     let validator = jsonschema::validator_for(&schema()).unwrap();
@@ -177,196 +225,7 @@ fn places(text: &str) -> Vec<String> {
 #[test]
 fn a_validator_points_at_the_wrong_key_or_value_and_at_nothing_else() {
     // Editors underline what a validator points at.
-    for (good, find, replace, place) in [
-        (GOOD, "seed = 7", "seeds = 7", "/seeds"),
-        (GOOD, "seed = 7", "seed = -7", "/seed"),
-        (GOOD, "x = [0, 1000]", "xx = [0, 1000]", "/domain/xx"),
-        (GOOD, "x = [0, 1000]", "x = [0, \"1 km\"]", "/domain/x/1"),
-        (
-            GOOD,
-            "color = \"#9a8f78\"",
-            "colour = \"#9a8f78\"",
-            "/facies/mud/colour",
-        ),
-        (
-            GOOD,
-            "porosity = 0.08",
-            "porosity = 8",
-            "/facies/mud/porosity",
-        ),
-        (
-            GOOD,
-            "[0.5, 0.5, 0.01]",
-            "\"500 mD\"",
-            "/facies/mud/permeability",
-        ),
-        (
-            GOOD,
-            "[0.5, 0.5, 0.01]",
-            "{ lognormal = [500, 200] }",
-            "/facies/mud/permeability",
-        ),
-        (
-            GOOD,
-            "[0.5, 0.5, 0.01]",
-            "[0.5, -0.5, 0.01]",
-            "/facies/mud/permeability/1",
-        ),
-        (
-            GOOD,
-            "kind = \"channel\"",
-            "kind = \"chanel\"",
-            "/feature/0/kind",
-        ),
-        (GOOD, "width = 50", "widht = 50", "/feature/0/widht"),
-        (GOOD, "width = 50", "", "/feature/0"),
-        (GOOD, "kind = \"channel\"", "", "/feature/0"),
-        (GOOD, "width = 50", "width = \"50 m\"", "/feature/0/width"),
-        (GOOD, "width = 50", "width = {}", "/feature/0/width"),
-        (
-            GOOD,
-            "width = 50",
-            "width = { unifrom = [1, 2] }",
-            "/feature/0/width/unifrom",
-        ),
-        (
-            GOOD,
-            "width = 50",
-            "width = { triangular = [1, 2] }",
-            "/feature/0/width/triangular",
-        ),
-        (
-            GOOD,
-            "width = 50",
-            "width = { uniform = [1, 2], min = 1 }",
-            "/feature/0/width",
-        ),
-        (
-            GOOD,
-            "width = 50",
-            "width = { uniform = [1, 2], normal = [1, 2] }",
-            "/feature/0/width",
-        ),
-        (
-            GOOD,
-            "width = 50",
-            "width = { expression = 5 }",
-            "/feature/0/width/expression",
-        ),
-        (
-            GOOD,
-            "width = 50",
-            "width = [[0, 40], [0.5, \"x\"]]",
-            "/feature/0/width/1/1",
-        ),
-        (
-            GOOD,
-            "width = 50",
-            "width = [[0, 40], [1.5, 40]]",
-            "/feature/0/width/1/0",
-        ),
-        (GOOD, "count = 3", "count = 2.5", "/feature/0/count"),
-        (
-            GOOD,
-            "count = 3",
-            "removes = \"second\"",
-            "/feature/0/removes",
-        ),
-        (
-            GOOD,
-            "count = 3",
-            "removes = [\"a\", { knid = \"channel\" }]",
-            "/feature/0/removes/1/knid",
-        ),
-        (
-            GOOD,
-            "count = 3",
-            "removes = [{ level = 0 }]",
-            "/feature/0/removes/0/level",
-        ),
-        (
-            GOOD,
-            "count = 3",
-            "semi_axes = [1, 2, 3]",
-            "/feature/0/semi_axes",
-        ),
-        (
-            GOOD,
-            "azimuth_deg = 80",
-            "azimuth = 80",
-            "/feature/1/trajectory/azimuth",
-        ),
-        (
-            GOOD,
-            "kind = \"line\"",
-            "kind = \"lime\"",
-            "/feature/0/trajectory/kind",
-        ),
-        (
-            GOOD,
-            "from = [0, 500]",
-            "from = [0, 500], range = [0, 1]",
-            "/feature/0/trajectory/range",
-        ),
-        (
-            SHOREFACE,
-            "base = { level = -55 }",
-            "base = -55",
-            "/domain/base",
-        ),
-        (
-            SHOREFACE,
-            "base = { level = -55 }",
-            "base = { lvel = -55 }",
-            "/domain/base/lvel",
-        ),
-        (
-            SHOREFACE,
-            "base = { level = -55 }",
-            "base = { level = \"-55\" }",
-            "/domain/base/level",
-        ),
-        (
-            SHOREFACE,
-            "dip_deg = 1",
-            "dip = 1",
-            "/domain/top/dipping/dip",
-        ),
-        (SHOREFACE, "y = [-10, 700], ", "", "/feature/0/surface/grid"),
-        (
-            SHOREFACE,
-            "heights = [[-42",
-            "heights = [[\"-42\"",
-            "/feature/0/surface/grid/heights/0/0",
-        ),
-        (SHOREFACE, ", tolerance = 0.1", "", "/feature/3/surface"),
-        (SHOREFACE, "top = \"upper\"", "top = 5", "/feature/2/top"),
-        (
-            SHOREFACE,
-            "length = { uniform = [150, 900] }",
-            "",
-            "/feature/2",
-        ),
-        (
-            SHOREFACE,
-            "\"onlapping\"",
-            "\"conformable\"",
-            "/feature/3/relation",
-        ),
-        (
-            SHOREFACE,
-            "\"zigzag\"",
-            "\"zig-zag\"",
-            "/feature/2/interfingering",
-        ),
-        (SHOREFACE, "name = \"lsf\", ", "", "/feature/2/belts/1"),
-        (
-            SHOREFACE,
-            "width = 120",
-            "widht = 120",
-            "/feature/2/belts/1/widht",
-        ),
-    ] {
+    for &(good, find, replace, place) in POINTED {
         assert!(good.contains(find), "{find}");
         assert_eq!(
             places(&good.replacen(find, replace, 1)),

@@ -60,7 +60,7 @@ fn point_at_keys(value: &mut Value) {
 /// A table that has exactly one of several forms: each a key that tells it, and the keys that go with that one.
 fn forms(
     description: &str,
-    properties: Map<String, Value>,
+    properties: &Map<String, Value>,
     forms: &[(&str, &[&str])],
 ) -> Map<String, Value> {
     let telling = forms.iter().map(|(key, _)| json!({ "required": [key] }));
@@ -167,7 +167,7 @@ impl JsonSchema for Profile {
         keys.insert("expression".to_owned(), expression);
         let mut table = forms(
             "A quantity, or one that varies along the trajectory: a list of [fraction, quantity], or { expression = \"a formula in s\" }.",
-            keys,
+            &keys,
             &[&DISTRIBUTIONS[..], &[("expression", &[])]].concat(),
         );
         table.extend(truncation());
@@ -198,7 +198,7 @@ impl JsonSchema for DistributionSchema {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let mut table = forms(
             "A distribution that a number is drawn from.",
-            distributions(),
+            &distributions(),
             &DISTRIBUTIONS,
         );
         table.extend(truncation());
@@ -303,7 +303,7 @@ impl JsonSchema for HorizonSurface {
         });
         let mut table = forms(
             "A surface over the whole domain: level, dipping, a grid of heights, or scattered points.",
-            object(json!({
+            &object(json!({
                 "level": level, "dipping": dipping, "grid": grid, "points": points, "tolerance": tolerance,
             })),
             &[
@@ -322,11 +322,11 @@ impl JsonSchema for HorizonSurface {
 ///
 /// The keys' schemas stand in the table itself, where editors look for what to complete; what is to be there, and what not,
 /// depends on the kind. A key that two kinds mean differently has its schema with the kind.
-fn by_kind<const N: usize>(common: &Schema, kinds: [(&str, Schema); N]) -> Schema {
+fn by_kind(common: &Schema, kinds: &[(&str, Schema)]) -> Schema {
     let mut properties = keys(common);
-    for (_, part) in &kinds {
+    for (_, part) in kinds {
         for key in keys(part).keys() {
-            properties.insert(key.clone(), shared(key, &kinds).0);
+            properties.insert(key.clone(), shared(key, kinds).0);
         }
     }
     let about = kinds
@@ -341,7 +341,7 @@ fn by_kind<const N: usize>(common: &Schema, kinds: [(&str, Schema); N]) -> Schem
     for (kind, part) in kinds.iter().rev() {
         let allowed = keys(common).into_iter().chain(keys(part));
         let allowed = allowed.map(|(key, schema)| {
-            let has_it_here = keys(part).contains_key(&key) && !shared(&key, &kinds).1;
+            let has_it_here = keys(part).contains_key(&key) && !shared(&key, kinds).1;
             (
                 key,
                 if has_it_here {
@@ -423,7 +423,7 @@ pub(crate) fn features(generator: &mut SchemaGenerator) -> Schema {
         ("horizon", HorizonFile::json_schema(generator)),
         ("clinoforms", ClinoformsFile::json_schema(generator)),
     ];
-    json_schema!({ "type": "array", "items": by_kind(&common, kinds) })
+    json_schema!({ "type": "array", "items": by_kind(&common, &kinds) })
 }
 
 pub(crate) fn trajectory(generator: &mut SchemaGenerator) -> Schema {
@@ -434,7 +434,7 @@ pub(crate) fn trajectory(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    by_kind(&common, kinds)
+    by_kind(&common, &kinds)
 }
 
 pub(crate) fn origin(_: &mut SchemaGenerator) -> Schema {
