@@ -9,7 +9,7 @@
 //!
 //! Over a Bézier patch with x linear in u and y in v the integral of a height is the mean of its control heights, so
 //! volume and walls are exact. The areas of curved sheets are Gauss–Legendre sums; a patch is quartered until two rules differ
-//! by no more than [`AREA`] of it.
+//! by no more than `AREA` of it.
 
 use std::sync::Arc;
 

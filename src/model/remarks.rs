@@ -111,17 +111,18 @@ fn misses(realisation: &Realisation, instances: &[&Instance]) -> Option<Remark> 
     };
     let [low, high] = [low, high].map(|corner| corner.to_array().map(tidy));
     let volumes: Vec<usize> = missing.iter().map(|child| child.volume).collect();
+    let list = names(realisation, &volumes);
+    let missed = if count == 1 {
+        format!("{list} lies outside of its parent {whose} and holds nothing")
+    } else {
+        format!(
+            "{} of {count} volumes of {feature} lie outside of their parent {whose} and hold nothing ({list})",
+            volumes.len()
+        )
+    };
     let text = format!(
-        "{} of {count} volumes of {feature} lie outside of their parent {whose} and hold nothing ({}); {what} within \
-         the parent: x {} to {}, y {} to {}, z {} to {}",
-        volumes.len(),
-        names(realisation, &volumes),
-        low[0],
-        high[0],
-        low[1],
-        high[1],
-        low[2],
-        high[2]
+        "{missed}; {what} within the parent: x {} to {}, y {} to {}, z {} to {}",
+        low[0], high[0], low[1], high[1], low[2], high[2]
     );
     Some(Remark { volumes, text })
 }

@@ -70,6 +70,31 @@ fn children_that_miss_their_parent_are_counted_with_what_to_set() {
 }
 
 #[test]
+fn a_child_beside_a_slanting_parent_is_outside_though_their_boxes_meet() {
+    // The parent runs from the south-west to the north-east; the child lies in the north-west.
+    let text = CHILDREN
+        .replace(
+            "from = [-200, 100], to = [2200, 100]",
+            "from = [-200, -150], to = [2200, 1650]",
+        )
+        .replace("count = 6", "top = -102")
+        .replace(
+            "kind = \"sine-generated\", amplitude = 60, wavelength = 600, azimuth_deg = 90",
+            "kind = \"line\", from = [100, 1300], to = [400, 1300]",
+        );
+    let checked = Sandbox::new(&text).answer("check model.toml");
+    let words = "valley/channel lies outside of its parent valley and holds nothing";
+    assert!(checked.contains(words), "{checked}");
+    // 900 m to the east and 400 m to the south it lies across the valley.
+    let inside = text.replace(
+        "[100, 1300], to = [400, 1300]",
+        "[1000, 900], to = [1300, 900]",
+    );
+    let checked = Sandbox::new(&inside).answer("check model.toml");
+    assert!(!checked.contains("outside of"), "{checked}");
+}
+
+#[test]
 fn children_within_their_parent_are_not_spoken_of() {
     let inside = CHILDREN
         .replace(
