@@ -111,27 +111,61 @@ fn a_body_may_be_removed_altogether() {
     );
 }
 
+/// Both engines make the same solids, and neither fails.
+fn assert_engines_agree(source: &Source) {
+    let [ours, theirs] =
+        [Engine::Partition, Engine::Occt].map(|engine| assemble(source, &[], engine).unwrap());
+    let pieces = [&ours, &theirs].map(|one| &one.assembly.measured.pieces);
+    assert_eq!(pieces[0].len(), pieces[1].len());
+    for (a, b) in pieces[0].iter().zip(pieces[1]) {
+        assert_eq!(a.volume, b.volume);
+        // The curves of a general fuse are fitted, to some 1e-5 m.
+        assert!(
+            (a.size - b.size).abs() < 1e-6 * a.size,
+            "{} and {}",
+            a.size,
+            b.size
+        );
+    }
+}
+
 #[test]
 fn two_engines_that_know_nothing_of_each_other_make_the_same_solids() {
     for seed in [3, 8] {
         let mut source = source("channel-belt/channel-belt");
         source.set("feature.channel.count=6".to_owned());
         source.set(format!("seed={seed}"));
-        let [ours, theirs] =
-            [Engine::Partition, Engine::Occt].map(|engine| assemble(&source, &[], engine).unwrap());
-        let pieces = [&ours, &theirs].map(|one| &one.assembly.measured.pieces);
-        assert_eq!(pieces[0].len(), pieces[1].len());
-        for (a, b) in pieces[0].iter().zip(pieces[1]) {
-            assert_eq!(a.volume, b.volume);
-            // The curves of a general fuse are fitted, to some 1e-5 m.
-            assert!(
-                (a.size - b.size).abs() < 1e-6 * a.size,
-                "{} and {}",
-                a.size,
-                b.size
-            );
-        }
+        assert_engines_agree(&source);
     }
+}
+
+#[test]
+fn two_engines_make_the_same_solids_of_horizons_in_a_domain_with_a_bent_base_and_top() {
+    let text = "name = \"Units\"\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-60, 0]\nfacies = \"mud\"\n\
+        base = { grid = { x = [0, 400], y = [0, 300], heights = [[-52, -50, -51], [-51, -48, -50], [-53, -50, -52]] } }\n\
+        top = { dipping = { through = [200, 150, -3], dip_deg = 0.4, azimuth_deg = 70 } }\n\
+        [facies.mud]\n[facies.sand]\n\
+        [[feature]]\nid = \"channel\"\nkind = \"channel\"\nfacies = \"sand\"\nwidth = 60\ndepth = 12\ntop = -20\n\
+        trajectory = { kind = \"line\", from = [-20, 120], to = [420, 190] }\n\
+        [[feature]]\nid = \"lower\"\nkind = \"horizon\"\nfacies = \"mud\"\n\
+        surface = { grid = { x = [0, 400], y = [0, 300], heights = [[-30, -22, -27], [-26, -29, -21], [-24, -20, -28]] } }\n\
+        [[feature]]\nid = \"ball\"\nkind = \"ellipsoid\"\nfacies = \"sand\"\nsemi_axes = [40, 30, 7]\ncenter = [210, 140, -17]\n\
+        [[feature]]\nid = \"upper\"\nkind = \"horizon\"\nfacies = \"sand\"\nrelation = \"onlapping\"\nsurface = { level = -16 }\n";
+    assert_engines_agree(&Source::from_text("units.toml", text, Format::Toml));
+}
+
+#[test]
+fn two_engines_make_the_same_clinothems_and_facies_belts() {
+    let mut source = source("parasequence/parasequence");
+    for set in [
+        "feature.lower.toe=0.3",
+        "feature.upper.toe=0.3",
+        "feature.lower.spacing=300",
+        "feature.upper.spacing=300",
+    ] {
+        source.set(set.to_owned());
+    }
+    assert_engines_agree(&source);
 }
 
 #[test]

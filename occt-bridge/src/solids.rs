@@ -70,6 +70,14 @@ impl Solids {
         &self.faces
     }
 
+    /// Renames the arguments that faces come from.
+    pub fn rename_arguments(&mut self, name: impl Fn(usize) -> usize) {
+        let origins = self.faces.iter_mut().flat_map(|face| &mut face.origins);
+        for origin in origins {
+            origin.argument = name(origin.argument);
+        }
+    }
+
     /// Solid `index` as a shape.
     pub fn shape_of(&self, index: usize) -> Result<Shape, BridgeError> {
         bridge::solid_of(&self.handle, index)

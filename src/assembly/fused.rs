@@ -1,7 +1,11 @@
 //! The general fuse as engine: a ladder of remedies, each another way of giving the same bodies to the kernel.
 
-use super::kernel::{self, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids};
+use glam::DVec3;
+
+use super::closed;
+use super::kernel::{self, Bound, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids, Topology};
 use super::shapes::{self, Cut};
+use super::sides::{self, SideError};
 use super::worker::{self, WorkerError};
 use super::{AssemblyError, Engine, Failed, Options};
 use crate::features::body::Body;
@@ -61,8 +65,11 @@ pub(super) fn attempt(
     cancel: &Cancel,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Result<Fused, Failed>, AssemblyError> {
-    let job = job(plan, remedy, options.threads);
     let failed = |why: String| Ok(Err(Failed::new(Engine::Occt, remedy.name, why)));
+    let job = match job(plan, remedy, options.threads) {
+        Ok(job) => job,
+        Err(error) => return failed(error.to_string()),
+    };
     match fuse(&job, options, cancel, progress) {
         Ok(Ok((solids, report))) => Ok(Ok(Fused {
             solids,
@@ -103,72 +110,89 @@ fn fuse(
 }
 
 /// The plan as the kernel's job, with one remedy's way of cutting.
-fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> FuseJob {
+fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> Result<FuseJob, SideError> {
     let with_lids = remedy.tops == Tops::Lids;
     let block = [plan.low(), plan.high()];
-    let closed = |shell: &PlannedShell| match &shell.flush {
-        Some(flush) if with_lids => Some(shapes::trough(&flush.raised, block, remedy.cut, None)),
-        flush => {
-            let level = flush.as_ref().map(|flush| flush.level);
-            shapes::shell(&shell.body, block, remedy.cut, level)
-        }
-    };
-    // By shell of the plan: its place among the closed ones.
-    let mut places = Vec::with_capacity(plan.shells.len());
     let mut shells = Vec::with_capacity(plan.shells.len());
-    for shell in &plan.shells {
-        let topology = closed(shell);
-        places.push(topology.is_some().then_some(shells.len()));
-        shells.extend(topology);
+    for (place, shell) in plan.shells.iter().enumerate() {
+        shells.push(topology(shell, place, block, remedy)?);
     }
-    let planned = |body: &PlannedBody| {
-        Some(PlannedBody {
-            volume: body.volume,
-            shell: places[body.shell]?,
-            below: body.below.filter(|_| with_lids),
-        })
+    let mut bounds = Vec::new();
+    for (is_top, side) in plan.bounds() {
+        let place = plan.shells.len() + bounds.len();
+        let shell = sides::shell(side, block, place)?;
+        bounds.push(Bound { shell, is_top });
+    }
+    let planned = |body: &PlannedBody| PlannedBody {
+        below: body.below.filter(|_| with_lids),
+        ..*body
     };
     // What lies above a lid is a box so large that only its floor meets anything.
     let points = shells
         .iter()
         .flat_map(|shell| &shell.vertices)
-        .map(|p| glam::DVec3::from_array(*p));
+        .map(|p| DVec3::from_array(*p));
     let (low, high) = points.fold((plan.low(), plan.high()), |(low, high), p| {
         (low.min(p), high.max(p))
     });
-    let margin = glam::DVec3::splat((high - low).max_element());
+    let margin = DVec3::splat((high - low).max_element());
     let above = |lid: &f64| {
         [
             (low - margin).with_z(*lid).to_array(),
             (high + margin).to_array(),
         ]
     };
-    FuseJob {
+    Ok(FuseJob {
         domain: [plan.low().to_array(), plan.high().to_array()],
         above_lids: plan.lids.iter().filter(|_| with_lids).map(above).collect(),
         shells,
-        bodies: plan.bodies.iter().filter_map(planned).collect(),
+        bounds,
+        bodies: plan.bodies.iter().map(planned).collect(),
         rules: plan.rules.clone(),
         threads,
         fuzzy: remedy.fuzzy,
-    }
+    })
+}
+
+/// The closed shell of a shell of the plan, at a place among all.
+fn topology(
+    shell: &PlannedShell,
+    place: usize,
+    block: [DVec3; 2],
+    remedy: &Remedy,
+) -> Result<Topology, SideError> {
+    let cut = remedy.cut;
+    Ok(match (&shell.body, &shell.flush) {
+        (Body::Side(side), _) => sides::shell(side, block, place)?,
+        (Body::Ellipsoid(ellipsoid), _) => closed::shell(ellipsoid.skin(), cut.segments),
+        (Body::Trough(_), Some(flush)) if remedy.tops == Tops::Lids => {
+            shapes::trough(&flush.raised, block, cut, None)
+        }
+        (Body::Trough(trough), flush) => {
+            let level = flush.as_ref().map(|flush| flush.level);
+            shapes::trough(trough, block, cut, level)
+        }
+    })
 }
 
 /// The domain's box as volume 0 and every body, closed ones as a solid, as the first attempt gives them to the kernel,
 /// and sides as the faces of their sheets.
 pub(super) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, Shape)>, String> {
-    let job = job(plan, &LADDER[0], 0);
-    let solids = kernel::arguments(&job).map_err(|error| explain(&error, plan))?;
-    let first_shell = 1 + job.above_lids.len();
-    let mut made = vec![(0, solids[0].clone())];
+    let block = [plan.low(), plan.high()];
+    let the_block = kernel::box_solid(block[0].to_array(), block[1].to_array());
+    let mut made = vec![(0, the_block.map_err(|error| error.to_string())?)];
     for body in &plan.bodies {
-        let shape = match &plan.shells[body.shell].body {
+        let shell = &plan.shells[body.shell];
+        let shape = match &shell.body {
             Body::Side(side) if side.sheets().is_empty() => continue,
             side @ Body::Side(_) => faces(side)?,
             Body::Trough(_) | Body::Ellipsoid(_) => {
-                let place = job.bodies.iter().find(|one| one.volume == body.volume);
-                let Some(place) = place else { continue };
-                solids[first_shell + place.shell].clone()
+                let topology = topology(shell, body.shell, block, &LADDER[0])
+                    .map_err(|error| error.to_string())?;
+                kernel::solid(&topology).map_err(|error| {
+                    let name = &plan.names[body.volume];
+                    format!("the kernel refuses the shell of {name}: {error}")
+                })?
             }
         };
         made.push((body.volume, shape));

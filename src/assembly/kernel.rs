@@ -7,12 +7,13 @@ pub(crate) use occt_bridge::{
     Boundary, BoundaryShape, BoundaryUse, BridgeError, Classifier, Curve, Edge, EdgeUse, Face,
     FaceIntegral, FaceMesh, FaceOrigin, FaceSample, MeshOptions, OnSurface, Path, Pcurve, Position,
     Shape, Shell, Solids, Surface, TableEdge, TableFace, TableSolid, TableVertex, Tables, Threads,
-    Topology, boundary, compound, defects, face_integrals, face_samples, faces, set_threads, solid,
-    solid_boxes, triangulate_solids, version, write_brep,
+    Topology, boundary, box_solid, compound, defects, face_integrals, face_samples, faces,
+    set_threads, solid, solid_boxes, triangulate_solids, version, write_brep,
 };
-use occt_bridge::{PartitionOptions, box_solid, partition};
+use occt_bridge::{PartitionOptions, partition};
 
 use super::labels::{self, Holders, LabelError, Side};
+use super::proof::DOMAIN;
 use crate::model::plan::PlannedBody;
 use crate::model::rules::Rules;
 
@@ -23,8 +24,10 @@ pub(crate) struct FuseJob {
     pub(crate) domain: [[f64; 3]; 2],
     /// What lies above each lid, as boxes larger than everything.
     pub(crate) above_lids: Vec<[[f64; 3]; 2]>,
-    /// The bodies' shells.
+    /// The shells, each closed.
     pub(crate) shells: Vec<Topology>,
+    /// What bounds the domain besides its block.
+    pub(crate) bounds: Vec<Bound>,
     /// Volumes by shell and lid.
     pub(crate) bodies: Vec<PlannedBody>,
     /// Who holds what.
@@ -33,6 +36,15 @@ pub(crate) struct FuseJob {
     pub(crate) threads: usize,
     /// Extra tolerance of contacts (m).
     pub(crate) fuzzy: Option<f64>,
+}
+
+/// A base or a top of the domain that is not the block's own.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Bound {
+    /// What lies above it, closed.
+    pub(crate) shell: Topology,
+    /// Whether it is the top.
+    pub(crate) is_top: bool,
 }
 
 /// What the fuse says besides its solids.
@@ -83,7 +95,7 @@ impl From<LabelError> for FuseError {
     }
 }
 
-/// Partitions everything (arguments: domain, lids, shells, in this order), labels the cells by the rules and merges those of one owner.
+/// Partitions everything (arguments: domain, lids, shells, the domain's bounds, in this order), labels the cells by the rules and merges those of one owner.
 pub(crate) fn fuse(
     job: &FuseJob,
     cancel: &Cancel,
@@ -125,16 +137,32 @@ pub(crate) fn fuse(
         }
     }
     let holders = Holders::new(&job.bodies, job.rules.len(), job.above_lids.len());
+    let first_shell = 1 + job.above_lids.len();
+    let first_bound = first_shell + job.shells.len();
+    let is_within = |sides: &[bool]| {
+        let mut bounds = job.bounds.iter().zip(&sides[first_bound..]);
+        bounds.all(|(bound, is_above)| bound.is_top != *is_above)
+    };
     let owners: Vec<Option<usize>> = inside
         .iter()
-        .map(|sides| holders.owner(&job.rules, sides))
+        .map(|sides| is_within(sides).then(|| holders.owner(&job.rules, sides))?)
         .collect();
-    let solids = partition.merge(&owners)?;
-    let first_shell = 1 + job.above_lids.len();
+    let mut solids = partition.merge(&owners)?;
+    solids.rename_arguments(|argument| {
+        if argument < first_bound {
+            argument
+        } else {
+            DOMAIN
+        }
+    });
     let crossing_shells = partition
         .crossing_arguments()
         .iter()
-        .filter(|(a, b)| *a >= first_shell && *b >= first_shell)
+        .filter(|(a, b)| {
+            [a, b]
+                .iter()
+                .all(|at| (first_shell..first_bound).contains(*at))
+        })
         .map(|(a, b)| (a - first_shell, b - first_shell))
         .collect();
     let report = FuseReport {
@@ -146,8 +174,8 @@ pub(crate) fn fuse(
     Ok((solids, report))
 }
 
-/// What is fused, as the kernel's solids: domain, lids, shells.
-pub(super) fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
+/// What is fused, as the kernel's solids: domain, lids, shells, the domain's bounds.
+fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
     let mut arguments = vec![box_solid(job.domain[0], job.domain[1])?];
     for [low, high] in &job.above_lids {
         arguments.push(box_solid(*low, *high)?);
@@ -163,6 +191,9 @@ pub(super) fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
             message: error.to_string(),
         })?;
         arguments.push(made);
+    }
+    for bound in &job.bounds {
+        arguments.push(solid(&bound.shell)?);
     }
     Ok(arguments)
 }

@@ -15,6 +15,7 @@ pub mod measure;
 mod partitioned;
 pub mod proof;
 pub(crate) mod shapes;
+mod sides;
 pub mod unfinished;
 pub mod worker;
 
@@ -91,6 +92,8 @@ pub struct Failed {
     pub contacts: Vec<Contact>,
     /// The volumes that were in doubt, as far as it is known.
     pub doubtful: Vec<usize>,
+    /// Whether things touch or run along each other, so that no tighter curve would help.
+    pub coincides: bool,
 }
 
 impl Failed {
@@ -102,6 +105,7 @@ impl Failed {
             why,
             contacts: Vec::new(),
             doubtful: Vec::new(),
+            coincides: false,
         }
     }
 }
@@ -194,12 +198,6 @@ pub enum AssemblyError {
         "the system starts no threads ({0}); end other programs, or allow more processes (`ulimit -u`)"
     )]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// The general fuse was asked for alone, and there is something that it cannot be given.
-    #[error(
-        "the general fuse takes closed bodies only, and the model has horizons, clinoforms, or a domain with a base or top of its \
-         own: build it by the partition (`--engine auto`)"
-    )]
-    NotClosed,
     /// The child process took too long or could not be used.
     #[error("{source}; the model has {bodies} bodies: {names}")]
     Worker {
@@ -312,9 +310,6 @@ pub fn assemble(
     cancel: &Cancel,
     progress: &(dyn Fn(Stage, f64) + Sync),
 ) -> Result<(Subject, Assembly), AssemblyError> {
-    if options.engine == Engine::Occt && subject.plan.has_sides() {
-        return Err(AssemblyError::NotClosed);
-    }
     let mut run = Run {
         subject,
         options,
@@ -325,6 +320,9 @@ pub fn assemble(
     };
     if options.engine != Engine::Occt {
         for remedy in &partitioned::REMEDIES {
+            if run.failed.iter().any(|failed| failed.coincides) {
+                break;
+            }
             let made = run.timed(|run| run.partition(remedy))?;
             if let Some(assembly) = run.judge(made)? {
                 return Ok((run.subject, assembly));
@@ -348,15 +346,7 @@ pub fn assemble(
         }
         run.subject = given;
     }
-    let plan = &run.subject.plan;
-    if options.engine != Engine::Partition && plan.has_sides() {
-        run.failed.push(Failed::new(
-            Engine::Occt,
-            fused::LADDER[0].name,
-            "it takes closed bodies only, and the model has horizons, clinoforms, or a domain with a base or top of its own"
-                .to_owned(),
-        ));
-    } else if options.engine != Engine::Partition {
+    if options.engine != Engine::Partition {
         for remedy in &fused::LADDER {
             let made = run.timed(|run| run.fuse(remedy))?;
             if let Some(assembly) = run.judge(made)? {

@@ -93,6 +93,7 @@ pub(super) fn attempt(
         return Ok(Err(Failed {
             contacts: contacts::of_doubts(plan, &made.doubts),
             doubtful,
+            coincides: made.faults.undecided > 0,
             ..Failed::new(Engine::Partition, remedy.name, why)
         }));
     }

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::closed;
 use super::kernel::{Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology};
-use crate::features::body::{Body, Role, Trough};
+use crate::features::body::{Role, Trough};
 use crate::nurbs;
 
 /// Topological tolerance of shells built from their own control nets (m).
@@ -21,20 +21,6 @@ pub(crate) struct Cut {
     pub(crate) segments: usize,
     /// Sections kept beyond the last one whose span meets the domain.
     pub(crate) overshoot: usize,
-}
-
-/// The closed shell of a body, [`trough`] or [`closed::shell`]; a side has none.
-pub(crate) fn shell(
-    body: &Body,
-    block: [DVec3; 2],
-    cut: Cut,
-    level: Option<f64>,
-) -> Option<Topology> {
-    match body {
-        Body::Trough(one) => Some(trough(one, block, cut, level)),
-        Body::Ellipsoid(ellipsoid) => Some(closed::shell(ellipsoid.skin(), cut.segments)),
-        Body::Side(_) => None,
-    }
 }
 
 /// The closed shell of a trough, its ends outside the box `low`–`high` left off.

@@ -189,6 +189,11 @@ impl FaciesBoundary {
         })
     }
 
+    /// The frame of its set.
+    pub fn frame(&self) -> &ClinoformFrame {
+        &self.frame
+    }
+
     /// The sheets, in the order of growing q: u along the rulings (degree 1) from below the base (0) to above the top (1),
     /// v along strike from 0 to 1. Neighbours share their sides' control points.
     pub fn sheets(&self) -> &[Surface] {

@@ -271,7 +271,17 @@ impl Horizon {
 
     /// The sheet over a box's plan and [`OVERSHOOT`] beyond it: u runs east and v north, both from 0 to 1.
     pub fn sheet(&self, low: DVec3, high: DVec3) -> Result<Surface, HorizonError> {
-        let margin = (high - low).xy() * OVERSHOOT;
+        self.sheet_beyond(low, high, OVERSHOOT)
+    }
+
+    /// The sheet over a box's plan and beyond it by a fraction of its extents.
+    pub fn sheet_beyond(
+        &self,
+        low: DVec3,
+        high: DVec3,
+        overshoot: f64,
+    ) -> Result<Surface, HorizonError> {
+        let margin = (high - low).xy() * overshoot;
         self.graph(low.xy() - margin, high.xy() + margin)
     }
 

@@ -175,12 +175,6 @@ impl AssemblyPlan {
         self.extent.high()
     }
 
-    /// Whether anything but closed bodies takes part.
-    pub fn has_sides(&self) -> bool {
-        let is_side = |shell: &PlannedShell| matches!(shell.body, Body::Side(_));
-        self.bounds().next().is_some() || self.shells.iter().any(is_side)
-    }
-
     /// The base and the top of the domain that are not the block's own: each with whether it is the top.
     pub fn bounds(&self) -> impl Iterator<Item = (bool, &Arc<Side>)> {
         let bounds = self.extent.bounds().iter().zip([false, true]);

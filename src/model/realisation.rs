@@ -177,7 +177,8 @@ impl Realisation {
     }
 }
 
-/// Gives each body a change of its own among those that it may meet.
+/// Gives each body a change of its own among those that it may meet; but the same to bodies that are the same, which then share
+/// a shell: a repeated body leaves no skin of the older one.
 fn move_apart(
     instances: &mut [Instance],
     volumes: &[VolumeRules],
@@ -188,9 +189,15 @@ fn move_apart(
     /// How far bodies move in plan, in steps; their ends move farther.
     const ASIDE: f64 = 0.3;
     let boxes: Vec<_> = instances.iter().map(|one| one.body.bounds()).collect();
+    let repeated = repeated(instances);
     let mut ranks = vec![0_u32; instances.len()];
     for at in 0..instances.len() {
         if matches!(instances[at].body, Body::Side(_)) {
+            continue;
+        }
+        if let Some(first) = repeated[at] {
+            ranks[at] = ranks[first];
+            instances[at].body = instances[first].body.clone();
             continue;
         }
         let (low, high) = boxes[at];
@@ -214,6 +221,27 @@ fn move_apart(
         })?;
     }
     Ok(())
+}
+
+/// By instance: the first one with the same body, if that is older.
+fn repeated(instances: &[Instance]) -> Vec<Option<usize>> {
+    let mut by_box: BTreeMap<[u64; 6], Vec<usize>> = BTreeMap::new();
+    let mut first = Vec::with_capacity(instances.len());
+    for (at, one) in instances.iter().enumerate() {
+        let (low, high) = one.body.bounds();
+        let [a, b, c] = low.to_array().map(f64::to_bits);
+        let [d, e, f] = high.to_array().map(f64::to_bits);
+        let alike = by_box.entry([a, b, c, d, e, f]).or_default();
+        let same = alike
+            .iter()
+            .copied()
+            .find(|older| instances[*older].body == one.body);
+        if same.is_none() {
+            alike.push(at);
+        }
+        first.push(same);
+    }
+    first
 }
 
 /// Draws something that is no single instance, again and again until it is possible; with the reasons of what was

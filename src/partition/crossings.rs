@@ -129,6 +129,18 @@ impl Crossings {
             doubts.extend(one.doubts);
             crossings.extend(one.crossings);
         }
+        doubtful.sort_unstable();
+        doubtful.dedup();
+        if faults.undecided > 0 {
+            // Sheets that run along each other: nothing is made of what else was found.
+            return Self {
+                doubtful,
+                doubts,
+                roots,
+                curves: crossings,
+                triples: Vec::new(),
+            };
+        }
         let found: Vec<(Vec<Triple>, usize)> = (0..crossings.len())
             .into_par_iter()
             .filter(|_| !stop())
@@ -143,8 +155,6 @@ impl Crossings {
             all.extend(triples);
         }
         pass_through(regions, &mut crossings, &all, tolerances);
-        doubtful.sort_unstable();
-        doubtful.dedup();
         Self {
             doubtful,
             doubts,

@@ -144,7 +144,7 @@ pub enum PartitionError {
 /// A partition: finished topology, and what contradicts itself in it.
 #[derive(Clone, Debug)]
 pub struct Partition {
-    /// Vertices, edges, faces and solids.
+    /// Vertices, edges, faces and solids; empty if something contradicts itself.
     pub topology: Topology,
     /// Zero everywhere if the topology may be used.
     pub faults: Faults,
@@ -158,6 +158,21 @@ pub struct Partition {
     pub branches: usize,
     /// Seconds per stage.
     pub timings: Vec<(&'static str, std::time::Duration)>,
+}
+
+impl Partition {
+    /// One that contradicts itself: nothing is made of what was found until then.
+    fn contradictory(faults: Faults, crossings: crossings::Crossings, clock: Clock) -> Self {
+        Self {
+            topology: Topology::default(),
+            faults,
+            doubtful_regions: crossings.doubtful,
+            doubts: crossings.doubts,
+            crossing_regions: Vec::new(),
+            branches: crossings.curves.len(),
+            timings: clock.laps,
+        }
+    }
 }
 
 /// How far beyond the domain curves are followed, as a fraction of its diagonal.
@@ -188,6 +203,9 @@ pub fn partition(
         return Err(PartitionError::Stopped);
     }
     clock.lap("crossings");
+    if !faults.is_none() {
+        return Ok(Partition::contradictory(faults, crossings, clock));
+    }
     let geometry = tracks::Geometry {
         regions: &regions,
         crossings: &crossings,
@@ -195,8 +213,14 @@ pub fn partition(
     let tracks = tracks::Tracks::new(&regions, &crossings, tolerances, &mut faults);
     let arcs = arcs::arcs(geometry, &tracks, labels, &mut faults);
     clock.lap("labels");
+    if !faults.is_none() {
+        return Ok(Partition::contradictory(faults, crossings, clock));
+    }
     let faces = faces::faces(geometry, &tracks, &arcs, &mut faults);
     clock.lap("faces");
+    if !faults.is_none() {
+        return Ok(Partition::contradictory(faults, crossings, clock));
+    }
     let integrals = quadrature::integrals(geometry, &tracks, &arcs, &faces);
     clock.lap("integrals");
     let parts = solids::Parts {

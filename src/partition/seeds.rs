@@ -17,6 +17,8 @@ use super::sheet::NodeKind;
 const LEAST: f64 = 1e-5;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
+/// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
+const ENOUGH: usize = 64;
 /// Sheets that cross at more than this sine do not touch nearby.
 const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
@@ -102,7 +104,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST {
+        if self.halvings > MOST || self.undecided >= ENOUGH {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
