@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec3Swizzles};
+use glam::{DVec3, Vec3Swizzles};
 
 use super::ellipsoid::Ellipsoid;
 use super::side::{Side, points_bounds};
@@ -107,12 +107,12 @@ impl Body {
 /// A tiny change of a body, by which contacts that coincide come apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nudge {
-    /// How much the lowest point rises, and each side moves in; the top stays level where it is (m).
+    /// How much the lowest point rises, and each side moves in; a level top stays level (m).
     pub rise: f64,
     /// How much farther out the ends of the longest side in plan are (m).
     pub reach: f64,
-    /// By how much all of it moves in plan (m).
-    pub shift: DVec2,
+    /// By how much all of it moves (m).
+    pub shift: DVec3,
 }
 
 impl Body {
@@ -229,7 +229,7 @@ impl Trough {
             let (centre, width) = (0.5 * (rims[0] + rims[1]), rims[0].distance(rims[1]));
             let narrower = 2.0 * nudge.rise / width;
             let at = p.xy() - narrower * (p.xy() - centre) + longer * (p.xy() - middle);
-            (at + nudge.shift).extend(p.z + flatter * (high.z - p.z))
+            at.extend(p.z + flatter * (high.z - p.z)) + nudge.shift
         });
         let (u, v) = (self.base.knots_u().clone(), self.base.knots_v().clone());
         let base = if self.base.is_rational() {

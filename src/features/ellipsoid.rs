@@ -150,7 +150,7 @@ impl Ellipsoid {
             .axes
             .iter()
             .fold(f64::INFINITY, |least, axis| least.min(axis.length()));
-        let (scale, shift) = (1.0 - nudge.rise / shortest, nudge.shift.extend(0.0));
+        let (scale, shift) = (1.0 - nudge.rise / shortest, nudge.shift);
         // A turn of the unit sphere about no direction that symmetry prefers: the ellipsoid stays the same.
         let turn = DMat3::from_euler(EulerRot::ZYX, TURN[0], TURN[1], TURN[2]);
         let [a, b, c] = self.axes;

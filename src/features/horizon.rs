@@ -235,6 +235,30 @@ impl Horizon {
         Self { shape }
     }
 
+    /// The horizon with all heights stretched from an elevation (m), by a fraction of their distance from it.
+    #[must_use]
+    pub fn stretched(&self, from: f64, by: f64) -> Self {
+        let factor = 1.0 + by;
+        let moved = |z: f64| z + by * (z - from);
+        let shape = match &self.shape {
+            Shape::Level(level) => Shape::Level(moved(*level)),
+            Shape::Plane { through, slope } => Shape::Plane {
+                through: through.with_z(moved(through.z)),
+                slope: factor * *slope,
+            },
+            Shape::Lattice {
+                lattice,
+                through,
+                slope,
+            } => Shape::Lattice {
+                lattice: lattice.scaled(factor),
+                through: through.with_z(moved(through.z)),
+                slope: factor * *slope,
+            },
+        };
+        Self { shape }
+    }
+
     /// The height at a place (m).
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let at = DVec2::new(x, y);

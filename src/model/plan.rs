@@ -209,6 +209,18 @@ impl AssemblyPlan {
             }
         }
         let (low, high) = body.bounds();
+        if matches!(&*body, Body::Side(side) if matches!(**side, Side::Horizon(_)))
+            && high.z <= self.low().z
+        {
+            let name = &self.names[instance.volume];
+            self.note(format!(
+                "{name} lies below the domain: all of it is above it"
+            ));
+            return Some(Reaching {
+                volume: instance.volume,
+                body: Cow::Owned(Body::Side(Side::Everywhere.into())),
+            });
+        }
         if !(low.cmplt(self.high()).all() && high.cmpgt(self.low()).all()) {
             let name = &self.names[instance.volume];
             self.note(format!("{name} lies outside the domain"));

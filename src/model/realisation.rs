@@ -131,6 +131,7 @@ impl Realisation {
             bounds,
             drawn,
             decisions,
+            levels,
             ..
         } = list;
         let extent = extent(&model.domain, &bounds)?;
@@ -148,7 +149,12 @@ impl Realisation {
             instances.push(instance);
         }
         if step > 0.0 {
-            move_apart(&mut instances, &volumes, step)?;
+            let apart = Apart {
+                step,
+                levels: &levels,
+                same: SAME_LEVEL * (model.domain.z[1] - model.domain.z[0]),
+            };
+            apart.move_bodies(&mut instances, &volumes)?;
         }
         let rejections = counts
             .into_iter()
@@ -177,50 +183,77 @@ impl Realisation {
     }
 }
 
-/// Gives each body a change of its own among those that it may meet; but the same to bodies that are the same, which then share
-/// a shell: a repeated body leaves no skin of the older one.
-fn move_apart(
-    instances: &mut [Instance],
-    volumes: &[VolumeRules],
+/// Two levels are the same within this fraction of the domain's height.
+const SAME_LEVEL: f64 = 1e-9;
+
+/// How bodies come apart whose contacts coincide.
+struct Apart<'a> {
+    /// The step of age (m).
     step: f64,
-) -> Result<(), RealisationError> {
-    /// Turns of neighbouring ranks, as far from each other as they can be (the golden angle, rad).
-    const TURN: f64 = 2.399_963_229_728_653;
-    /// How far bodies move in plan, in steps; their ends move farther.
-    const ASIDE: f64 = 0.3;
-    let boxes: Vec<_> = instances.iter().map(|one| one.body.bounds()).collect();
-    let repeated = repeated(instances);
-    let mut ranks = vec![0_u32; instances.len()];
-    for at in 0..instances.len() {
-        if matches!(instances[at].body, Body::Side(_)) {
-            continue;
+    /// Of level horizons: where they were, and where they are now (m).
+    levels: &'a [[f64; 2]],
+    /// Levels nearer than this are the same (m).
+    same: f64,
+}
+
+impl Apart<'_> {
+    /// Gives each body a change of its own among those that it may meet; but the same to bodies that are the same, which then
+    /// share a shell: a repeated body leaves no skin of the older one.
+    fn move_bodies(
+        &self,
+        instances: &mut [Instance],
+        volumes: &[VolumeRules],
+    ) -> Result<(), RealisationError> {
+        let boxes: Vec<_> = instances.iter().map(|one| one.body.bounds()).collect();
+        let repeated = repeated(instances);
+        let mut ranks = vec![0_u32; instances.len()];
+        for at in 0..instances.len() {
+            if matches!(instances[at].body, Body::Side(_)) {
+                continue;
+            }
+            if let Some(first) = repeated[at] {
+                ranks[at] = ranks[first];
+                instances[at].body = instances[first].body.clone();
+                continue;
+            }
+            let (low, high) = boxes[at];
+            let meets = |older: &usize| {
+                let (from, to) = boxes[*older];
+                let slack = self.step * f64::from(ranks[*older] + 2);
+                from.cmple(high + slack).all() && (low - slack).cmple(to).all()
+            };
+            let older = (0..at).filter(meets).map(|older| ranks[older]).max();
+            ranks[at] = older.unwrap_or(0) + 1;
+            let body = &instances[at].body;
+            let body = body.nudged(&self.nudge(body, ranks[at]));
+            instances[at].body = body.map_err(|error| RealisationError::Impossible {
+                volume: volumes[instances[at].volume].name.clone(),
+                reason: error.to_string(),
+            })?;
         }
-        if let Some(first) = repeated[at] {
-            ranks[at] = ranks[first];
-            instances[at].body = instances[first].body.clone();
-            continue;
-        }
-        let (low, high) = boxes[at];
-        let meets = |older: &usize| {
-            let (from, to) = boxes[*older];
-            let slack = step * f64::from(ranks[*older] + 2);
-            from.cmple(high + slack).all() && (low - slack).cmple(to).all()
-        };
-        let older = (0..at).filter(meets).map(|older| ranks[older]).max();
-        ranks[at] = older.unwrap_or(0) + 1;
-        let rank = f64::from(ranks[at]);
-        let nudge = Nudge {
-            rise: rank * step,
-            reach: rank * step,
-            shift: ASIDE * step * DVec2::from_angle(rank * TURN),
-        };
-        let body = instances[at].body.nudged(&nudge);
-        instances[at].body = body.map_err(|error| RealisationError::Impossible {
-            volume: volumes[instances[at].volume].name.clone(),
-            reason: error.to_string(),
-        })?;
+        Ok(())
     }
-    Ok(())
+
+    /// The change of the body of a rank.
+    fn nudge(&self, body: &Body, rank: u32) -> Nudge {
+        /// Turns of neighbouring ranks, as far from each other as they can be (the golden angle, rad).
+        const TURN: f64 = 2.399_963_229_728_653;
+        /// How far bodies move in plan, in steps; their ends move farther.
+        const ASIDE: f64 = 0.3;
+        /// Horizons move by whole steps; bodies shall not move with them.
+        const BETWEEN: f64 = 0.381_966_011_250_105;
+        let rank = f64::from(rank);
+        // A body that ends at a level horizon still does.
+        let level = body.level_top(self.same);
+        let ends = |[from, _]: &&[f64; 2]| level.is_some_and(|top| (top - from).abs() <= self.same);
+        let lowest = self.levels.iter().filter(ends).map(|[from, to]| to - from);
+        Nudge {
+            rise: (rank + BETWEEN) * self.step,
+            reach: (rank + BETWEEN) * self.step,
+            shift: (ASIDE * self.step * DVec2::from_angle(rank * TURN))
+                .extend(lowest.reduce(f64::min).unwrap_or(0.0)),
+        }
+    }
 }
 
 /// By instance: the first one with the same body, if that is older.

@@ -176,6 +176,16 @@ impl Lattice {
         Ok(lattice)
     }
 
+    /// All values multiplied by a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        for value in &mut scaled.coefficients {
+            *value *= factor;
+        }
+        scaled
+    }
+
     /// The value at a place.
     pub fn value(&self, at: DVec2) -> f64 {
         let (x, y) = (self.weights(0, at.x), self.weights(1, at.y));

@@ -44,6 +44,8 @@ pub(super) struct Listing<'a> {
     pub(super) drawn: Vec<(String, f64)>,
     /// By how much contacts that coincide are moved apart for each step in age (m).
     step: f64,
+    /// Of level horizons that were moved: from where, and to where (m).
+    pub(super) levels: Vec<[f64; 2]>,
     /// Clinoform sets so far.
     sets: u32,
     /// The unit above the last horizon so far.
@@ -81,8 +83,7 @@ impl<'a> Listing<'a> {
                 let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
                 let ((horizon, drawn), reasons) = draw_whole(model, &feature.id, "1", draw)?;
                 rejected.extend(reasons.into_iter().map(|reason| (Some(index), reason)));
-                let age = (horizons.len() + 1) as f64;
-                horizons.insert(index, (horizon.lowered(age * step), drawn));
+                horizons.insert(index, (horizon, drawn));
             }
         }
         let mut list = Self {
@@ -98,16 +99,43 @@ impl<'a> Listing<'a> {
             step,
             sets: 0,
             open: BACKGROUND,
+            levels: Vec::new(),
         };
         list.bounds = [
             list.bound("base", model.domain.base.as_ref())?,
             list.bound("top", model.domain.top.as_ref())?,
         ];
-        // Everything is older than the top. A level one is given by a number, and stays.
-        if let Some(top) = list.bounds[1].as_mut().filter(|top| top.level().is_none()) {
-            *top = top.lowered((list.horizons.len() + 1) as f64 * step);
+        if step > 0.0 {
+            list.move_horizons_apart();
         }
         Ok(list)
+    }
+
+    /// Lowers each horizon by a step for every older one, and the domain's top most. Level bounds of the domain are given by
+    /// numbers, and stay; so everything else is stretched from the middle of the domain, by so much that what lies on its top
+    /// ends above it, and what lies on its base below.
+    fn move_horizons_apart(&mut self) {
+        let [low, high] = self.model.domain.z;
+        let steps = self.horizons.len() + 1;
+        let (middle, reach) = (0.5 * (low + high), steps as f64 * self.step);
+        let stretch = reach / (0.5 * (high - low));
+        let moved = |horizon: &Horizon, age: usize| {
+            horizon
+                .stretched(middle, stretch)
+                .lowered(age as f64 * self.step)
+        };
+        for (age, (horizon, _)) in self.horizons.values_mut().enumerate() {
+            let apart = moved(horizon, age + 1);
+            if let (Some(from), Some(to)) = (horizon.level(), apart.level()) {
+                self.levels.push([from, to]);
+            }
+            *horizon = apart;
+        }
+        for (bound, age) in self.bounds.iter_mut().zip([0, steps]) {
+            if let Some(bound) = bound.as_mut().filter(|bound| bound.level().is_none()) {
+                *bound = moved(bound, age);
+            }
+        }
     }
 
     /// Draws the domain's own base or top.
