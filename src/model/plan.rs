@@ -133,7 +133,7 @@ impl AssemblyPlan {
             .iter()
             .filter_map(|instance| plan.reaching(instance))
             .collect();
-        let tops = plan.tops(&reaching);
+        let tops = plan.tops(&reaching, realisation.step > 0.0);
         let mut known: Vec<(Top, usize)> = Vec::new();
         for (reaching, &top) in reaching.iter().zip(&tops) {
             let volume = reaching.volume;
@@ -250,7 +250,10 @@ impl AssemblyPlan {
     }
 
     /// Which bodies end at the domain's top or under a common lid.
-    fn tops(&mut self, bodies: &[Reaching<'_>]) -> Vec<Top> {
+    ///
+    /// Where contacts are decided by age, those also end under a lid that a bent horizon may run along: the two are heights over
+    /// one plan, and where these cross is found however near they are.
+    fn tops(&mut self, bodies: &[Reaching<'_>], by_age: bool) -> Vec<Top> {
         let same = self.same_level();
         let levels: Vec<Option<f64>> = bodies.iter().map(|one| one.body.level_top(same)).collect();
         let bounds: Vec<_> = bodies.iter().map(|one| one.body.bounds()).collect();
@@ -285,7 +288,19 @@ impl AssemblyPlan {
                     && levels[*j].is_some_and(|other| (other - level).abs() <= same)
                     && boxes_meet_in_plan(&bounds[i], &bounds[*j])
             };
-            if level < self.high().z && (0..bodies.len()).any(|j| meets(&j)) {
+            let runs_along = |one: &Reaching<'_>| match &*one.body {
+                Body::Side(side) if matches!(**side, Side::Horizon(_)) => {
+                    let (low, high) = side.bounds();
+                    low.z - same <= level && level <= high.z + same
+                }
+                _ => false,
+            };
+            let is_shared = (0..bodies.len()).any(|j| meets(&j));
+            if by_age && !is_shared && level < self.high().z && bodies.iter().any(runs_along) {
+                tops[i] = Top::UnderLid(level);
+                continue;
+            }
+            if level < self.high().z && is_shared {
                 // The first one's level stands for all that are the same.
                 let lid = levels
                     .iter()

@@ -68,6 +68,8 @@ pub struct Realisation {
     pub drawn: Vec<(String, f64)>,
     /// What was decided because something takes no part, in words for the report.
     pub decisions: Vec<String>,
+    /// The step by which contacts that coincide are decided by age (m); 0 if they are not.
+    pub step: f64,
 }
 
 /// Why a model has no realisation.
@@ -174,6 +176,7 @@ impl Realisation {
             extent,
             drawn,
             decisions,
+            step,
         })
     }
 

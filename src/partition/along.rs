@@ -131,7 +131,14 @@ impl<'a> Along<'a> {
         let place: DVec2 = segment.evaluate(t).0.xy();
         let q = self.heights.parameters(place);
         let at = DVec2::new(q[2], q[3]);
-        let point = self.heights.sheets[1].point(at.x, at.y);
+        let sheet = self.heights.sheets[1];
+        // Its patches go on beyond its borders.
+        let nearest = sheet.nearest_parameters(at);
+        let beyond = self.heights.place_on_second(nearest).distance(place);
+        if beyond > self.tolerances.same {
+            return true;
+        }
+        let point = sheet.point(at.x, at.y);
         let same = |other: &Root| other.point.distance(point) < self.tolerances.same;
         if self.clip.holds(point) && !self.roots.iter().any(same) {
             self.roots.push(Root { t, at, point });

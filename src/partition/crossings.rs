@@ -210,7 +210,8 @@ pub(super) fn edge_roots(
                     Along::new(heights, tolerances, clip).within(&own.segments, &everywhere);
                 (found.roots, found.undecided)
             } else {
-                let found = Piercing::new(&own.segments, other, tolerances, clip).run();
+                let matters = |point: DVec3| regions.matter([own.region, other.region], point);
+                let found = Piercing::new(&own.segments, other, tolerances, clip, &matters).run();
                 (found.roots, found.undecided)
             };
             undecided += doubtful;
@@ -303,7 +304,8 @@ fn trace(
             branches.push(branch);
         }
     }
-    faults.unused_roots += starts.iter().filter(|start| !start.used).count();
+    let unused = starts.iter().filter(|start| !start.used);
+    faults.unused_roots += unused.filter(|start| matters(start.point)).count();
     let crossings = branches
         .into_iter()
         .map(|branch| Crossing { sheets, branch })
@@ -397,7 +399,7 @@ fn finish(
                 start.used = true;
                 branch.ends[which] = End::AtRoot(start.root);
             }
-            _ => faults.lost_ends += 1,
+            _ => faults.lost_ends += usize::from(matters(point)),
         }
     }
 }

@@ -107,6 +107,11 @@ impl<'a> Heights<'a> {
         self.plans[0].place(DVec2::new(q[0], q[1]))
     }
 
+    /// A place in plan, from the second sheet's parameters.
+    pub(super) fn place_on_second(&self, parameters: DVec2) -> DVec2 {
+        self.plans[1].place(parameters)
+    }
+
     /// The parameters on both sheets.
     pub(super) fn parameters(&self, at: DVec2) -> [f64; 4] {
         let [a, b] = [0, 1].map(|side| self.plans[side].parameters(at));

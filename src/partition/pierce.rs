@@ -41,6 +41,8 @@ const RATIO: f64 = 4.0;
 const LEAST: f64 = 1e-7;
 /// Most halvings of one curve with one sheet.
 const MOST: usize = 100_000;
+/// Undecided places after which no more are looked for: nothing is made of them anyway.
+const ENOUGH: usize = 64;
 
 /// Whether a range of a curve's parameters meets some stretches of it.
 pub(super) fn meets([from, to]: [f64; 2], stretches: &[[f64; 2]]) -> bool {
@@ -155,6 +157,8 @@ pub(super) struct Piercing<'a> {
     clip: Bounds,
     segments: &'a [Segment],
     segment: usize,
+    /// Whether it matters where the curve passes at a place; elsewhere it may graze the sheet.
+    matters: &'a dyn Fn(DVec3) -> bool,
     pub(super) roots: Vec<Root>,
     /// Places that halving did not decide: the curve grazes the sheet, or runs along it.
     pub(super) undecided: usize,
@@ -167,8 +171,10 @@ impl<'a> Piercing<'a> {
         sheet: &'a Sheet,
         tolerances: Tolerances,
         clip: Bounds,
+        matters: &'a dyn Fn(DVec3) -> bool,
     ) -> Self {
         Self {
+            matters,
             sheet,
             tolerances,
             clip,
@@ -249,6 +255,9 @@ impl<'a> Piercing<'a> {
     }
 
     fn pieces(&mut self, segment: &Segment, facet: &Facet<'_>) {
+        if self.undecided >= ENOUGH {
+            return;
+        }
         self.halvings += 1;
         if self.halvings > MOST {
             self.undecided += 1;
@@ -271,7 +280,8 @@ impl<'a> Piercing<'a> {
         let (size_s, size_p) = (segment.bounds.extent(), patch.bounds.extent());
         if size_s < least && size_p < least {
             if !self.land(segment, patch) {
-                self.undecided += 1;
+                let [u, v] = patch.middle();
+                self.undecided += usize::from((self.matters)(patch.point(u, v)));
             }
             return;
         }

@@ -248,6 +248,12 @@ impl Sheet {
         self.patch_at(u, v).point(u, v)
     }
 
+    /// The parameters on the sheet that are nearest to some.
+    pub(super) fn nearest_parameters(&self, at: DVec2) -> DVec2 {
+        let [low, high] = [Self::low, Self::high].map(|end| DVec2::new(end(self, 0), end(self, 1)));
+        at.clamp(low, high)
+    }
+
     /// Whether parameters lie on the sheet.
     pub(super) fn holds(&self, u: f64, v: f64) -> bool {
         self.low(0) <= u && u <= self.high(0) && self.low(1) <= v && v <= self.high(1)

@@ -242,7 +242,10 @@ impl Parts<'_> {
         let clip: Bounds = self.geometry.regions.domain.grown(self.tolerances.same);
         let mut crossed = Vec::new();
         for (sheet, own) in self.geometry.regions.sheets.iter().enumerate() {
-            for root in Piercing::new(line, own, self.tolerances, clip).run().roots {
+            for root in Piercing::new(line, own, self.tolerances, clip, &|_| true)
+                .run()
+                .roots
+            {
                 let on = |face: &Face| face.sheet == sheet && face_holds(face, root.at);
                 crossed.extend(self.faces.iter().position(on));
             }

@@ -3,6 +3,8 @@
 //! Most of a branch can lie where one of its two regions makes no difference: a younger body has taken the place, or
 //! what the region divides is not there. Nothing is looked for on such stretches; they bound nothing.
 
+use glam::DVec3;
+
 use super::along::Along;
 use super::bounds::Bounds;
 use super::common::Common;
@@ -148,7 +150,12 @@ impl<'a> Thirds<'a> {
                 let found = found.within(&self.segments, &self.live);
                 (found.roots, found.undecided)
             } else {
-                let found = Piercing::new(&self.segments, other, self.tolerances, self.clip);
+                let matters = |point: DVec3| {
+                    let mut own = self.own.iter();
+                    own.any(|own| self.regions.matter([*own, region], point))
+                };
+                let clip = self.clip;
+                let found = Piercing::new(&self.segments, other, self.tolerances, clip, &matters);
                 let found = found.within(&self.live);
                 (found.roots, found.undecided)
             };
