@@ -156,16 +156,12 @@ fn two_engines_make_the_same_solids_of_horizons_in_a_domain_with_a_bent_base_and
 
 #[test]
 fn two_engines_make_the_same_clinothems_and_facies_belts() {
-    let mut source = source("parasequence/parasequence");
-    for set in [
-        "feature.lower.toe=0.3",
-        "feature.upper.toe=0.3",
-        "feature.lower.spacing=300",
-        "feature.upper.spacing=300",
-    ] {
-        source.set(set.to_owned());
-    }
-    assert_engines_agree(&source);
+    let text = "name = \"Set\"\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-30, 0]\nfacies = \"mud\"\n\
+        [facies.mud]\n[facies.sand]\n\
+        [[feature]]\nid = \"set\"\nkind = \"clinoforms\"\nfacies = \"mud\"\nazimuth_deg = 80\nlength = 150\n\
+        spacing = 120\nfirst = 60\nsheets = 1\ntoe = 0.4\n\
+        belts = [{ name = \"shore\", facies = \"sand\", width = 90, interfingering = 20 }, { name = \"shelf\", facies = \"mud\" }]\n";
+    assert_engines_agree(&Source::from_text("set.toml", text, Format::Toml));
 }
 
 #[test]

@@ -299,7 +299,7 @@ pub type Again<'a> = &'a dyn Fn(f64) -> Result<Realisation, RealisationError>;
 
 /// Steps by which coinciding contacts are moved apart, as fractions of the domain's diagonal: far below any geology, above
 /// what curves are exact to.
-const STEPS: [f64; 3] = [1e-9, 1e-8, 1e-7];
+const STEPS: [f64; 4] = [1e-9, 1e-8, 1e-7, 1e-6];
 
 /// Assembles a realisation and proves the result against the point evaluator. Returns what was assembled, too: where contacts
 /// coincide that is not the realisation given, but one by age.
