@@ -14,8 +14,8 @@ const GAUSS: [(f64, f64); 3] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 /// Cells along each side of the plan to begin with, and how often those in which the order of horizons changes are halved.
-const CELLS: usize = 160;
-const HALVINGS: u32 = 7;
+const CELLS: usize = 80;
+const HALVINGS: u32 = 5;
 
 /// What the integral found.
 #[derive(serde::Serialize)]

@@ -65,12 +65,16 @@ impl Draws {
 
     /// A number, or a distribution around it that stays within a share of it.
     pub(super) fn quantity(&mut self, value: f64, spread: f64) -> Value {
-        let value = rounded(value, 5);
+        self.about(rounded(value, 5), spread * value.abs())
+    }
+
+    /// A number, or a distribution around it that stays within a distance from it.
+    pub(super) fn about(&mut self, value: f64, reach: f64) -> Value {
+        let value = rounded(value, 7);
         if self.plain || self.chance(0.5) {
             return value.into();
         }
-        let reach = spread * value.abs();
-        let (low, high) = (rounded(value - reach, 5), rounded(value + reach, 5));
+        let (low, high) = (rounded(value - reach, 7), rounded(value + reach, 7));
         let sd = rounded(0.4 * reach, 4);
         match self.count(0, 4) {
             0 => table([("uniform", vec![low, high].into())]).into(),

@@ -172,17 +172,24 @@ fn strata(
     }
 }
 
-/// Something that can have children.
+/// Something that can have children. One of several instances has none: a child with a course of its own would be made
+/// again in each of them, in the same place.
 fn parent(draws: &mut Draws, features: &[Table]) -> Option<String> {
     let able: Vec<&str> = features
         .iter()
         .filter(|feature| {
             let kind = feature.get("kind").and_then(Value::as_str);
-            kind.is_some_and(|kind| kind != "clinoforms")
+            kind.is_some_and(|kind| kind != "clinoforms") && is_one(features, feature)
         })
         .filter_map(|feature| feature.get("id")?.as_str())
         .collect();
     (!able.is_empty()).then(|| draws.pick(&able).to_owned())
+}
+
+/// Whether a feature has one instance.
+fn is_one(features: &[Table], feature: &Table) -> bool {
+    let above = feature.get("parent").and_then(|id| position(features, id));
+    !feature.contains_key("count") && above.is_none_or(|at| is_one(features, &features[at]))
 }
 
 fn who_removes_whom(draws: &mut Draws, body: &mut Table, features: &[Table]) {

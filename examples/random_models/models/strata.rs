@@ -72,7 +72,7 @@ pub(super) fn grid(
 /// A surface about an elevation, with so much relief.
 pub(super) fn surface(draws: &mut Draws, block: &Block, mean: f64, relief: f64) -> Table {
     match draws.count(0, 9) {
-        0 | 1 => table([("level", draws.quantity(mean, 0.01))]),
+        0 | 1 => table([("level", draws.about(mean, 0.3 * relief))]),
         2 | 3 => {
             let [x, y] = block.at(draws.within(0.2, 0.8), draws.within(0.2, 0.8));
             let through = [x, y, mean].map(|value| rounded(value, 7));
