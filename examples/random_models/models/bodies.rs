@@ -179,11 +179,18 @@ pub(super) fn channel(draws: &mut Draws, block: &Block, id: &str) -> Table {
     }
     for bank in ["left_angle_deg", "right_angle_deg"] {
         if draws.chance(0.15) {
-            let slope = (4.0 * depth / width).atan().to_degrees();
+            // A bank that is gentler than its side of the section is wide would reach past the thalweg.
+            let lean = channel
+                .get("asymmetry")
+                .and_then(Value::as_float)
+                .unwrap_or(0.0);
+            let slope = (2.0 * depth / ((0.5 - lean.abs()) * width))
+                .atan()
+                .to_degrees();
             set(
                 &mut channel,
                 bank,
-                rounded((slope * draws.within(0.8, 1.8)).clamp(5.0, 110.0), 4),
+                rounded((slope * draws.within(0.9, 1.8)).clamp(5.0, 110.0), 4),
             );
         }
     }
