@@ -205,7 +205,8 @@ fn who_removes_whom(draws: &mut Draws, body: &mut Table, features: &[Table]) {
         match draws.count(0, 3) {
             0 if !ids.is_empty() => chosen.push(draws.pick(&ids).into()),
             1 => {
-                chosen.push(table([("kind", draws.pick(&["channel", "ellipsoid"]).into())]).into())
+                let kind = draws.pick(&["channel", "ellipsoid"]);
+                chosen.push(table([("kind", kind.into())]).into());
             }
             2 => chosen.push(table([("facies", draws.pick(&FACIES).into())]).into()),
             _ => chosen.push(table([("level", 1.into())]).into()),

@@ -167,7 +167,7 @@ pub(super) fn clinoforms(
         set(&mut set_of, "toe", draws.within(0.1, 1.0));
     }
     if draws.chance(0.3) {
-        set(&mut set_of, "sheets", draws.count(1, 4) as i64);
+        set(&mut set_of, "sheets", draws.pick(&[1, 2, 3, 4]));
     }
     let count = draws.count(0, 4);
     if count >= 2 {

@@ -232,7 +232,9 @@ fn points(table: &mut Table, keys: &[&str], way: Way) {
             return;
         };
         let Some(own) = list.iter().map(number).collect::<Option<Vec<f64>>>() else {
-            list.iter_mut().for_each(|value| walk(value, way));
+            for value in list {
+                walk(value, way);
+            }
             return;
         };
         let mut new = way.point(own[0], own[1]).to_vec();
@@ -274,7 +276,9 @@ fn each(value: &mut Value, change: &impl Fn(f64) -> f64) {
     if let Some(own) = number(value) {
         *value = change(own).into();
     } else if let Some(list) = value.as_array_mut() {
-        list.iter_mut().for_each(|value| each(value, change));
+        for value in list {
+            each(value, change);
+        }
     }
 }
 
