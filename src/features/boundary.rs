@@ -25,8 +25,7 @@ use crate::nurbs::{Curve, CurveError, Function, KnotError, KnotVector, Surface, 
 
 /// How far sheets reach above the highest top and below the lowest base, as a fraction of the height between them.
 const OVERSHOOT: f64 = 0.05;
-/// Spans between two nodes: as few as keep the line's deviation within this (m), and no more than that.
-const TOLERANCE: f64 = 1e-3;
+/// Spans between two nodes: as few as keep the line's deviation within [`ClinoformFrame::tolerance`], and no more than that.
 const MOST_SPANS: usize = 8;
 /// Fewest spans of a leg.
 const FEWEST_SPANS: usize = 4;
@@ -296,6 +295,7 @@ impl Line<'_> {
 
     fn legs(&self) -> Result<Vec<(Leg, f64)>, BoundaryError> {
         let reach = self.younger.frame().reach();
+        let tolerance = self.younger.frame().tolerance();
         match &self.design.wander {
             Wander::Smooth(nodes) => {
                 let wander = Wave::through(nodes)?;
@@ -311,7 +311,7 @@ impl Line<'_> {
                     .filter(|v| (ROUNDING..1.0 - ROUNDING).contains(v));
                 let stops: Vec<f64> = [0.0].into_iter().chain(stops).chain([1.0]).collect();
                 let lower = |v: f64| self.lower(q(v), wander.at(q(v)));
-                Ok(vec![leg([-reach, reach], &stops, &lower)?])
+                Ok(vec![leg([-reach, reach], &stops, &lower, tolerance)?])
             }
             Wander::Zigzag(nodes) => {
                 let mut legs = Vec::new();
@@ -327,7 +327,7 @@ impl Line<'_> {
                         let part = (q - a) / (b - a);
                         self.lower(q, mix(from, to, part))
                     };
-                    legs.push(leg([start, end], &[0.0, 1.0], &lower)?);
+                    legs.push(leg([start, end], &[0.0, 1.0], &lower, tolerance)?);
                 }
                 Ok(legs)
             }
@@ -365,6 +365,7 @@ fn leg(
     [from, to]: [f64; 2],
     stops: &[f64],
     lower: &impl Fn(f64) -> f64,
+    tolerance: f64,
 ) -> Result<(Leg, f64), BoundaryError> {
     let mut spans = FEWEST_SPANS.div_ceil(stops.len() - 1);
     loop {
@@ -375,7 +376,7 @@ fn leg(
         knots.extend([1.0; 4]);
         let function = Function::interpolated(&KnotVector::new(3, knots)?, lower)?;
         let deviation = function.deviation(lower);
-        if deviation <= TOLERANCE || spans >= MOST_SPANS {
+        if deviation <= tolerance || spans >= MOST_SPANS {
             let lower = function;
             return Ok((Leg { from, to, lower }, deviation));
         }

@@ -73,7 +73,7 @@ fn a_boundary_without_wander_lies_on_the_younger_sheet_at_its_distance_and_past_
             let wander = Wander::Smooth(nodes(reach, |_| 0.0));
             let design = design(distance, 40.0, wander);
             let boundary = FaciesBoundary::new(&design, &case.younger, &case.unit).unwrap();
-            assert!(boundary.deviation() <= TOLERANCE);
+            assert!(boundary.deviation() <= case.frame.tolerance());
             for k in -10..=10 {
                 let q = reach * f64::from(k) / 10.5;
                 let d = case.younger.d_top(q) + distance;
@@ -242,7 +242,10 @@ fn where_the_line_passes_the_toe_at_an_angle_its_corner_is_rounded_by_decimetres
     let design = design(250.0, 60.0, wander);
     let boundary = FaciesBoundary::new(&design, &case.younger, &case.unit).unwrap();
     let deviation = boundary.deviation();
-    assert!((TOLERANCE..0.3).contains(&deviation), "{deviation}");
+    assert!(
+        (case.frame.tolerance()..0.3).contains(&deviation),
+        "{deviation}"
+    );
 }
 
 #[test]

@@ -12,6 +12,10 @@ use super::trajectory::azimuth_vector;
 
 /// How far the common strikes reach beyond the domain, as a fraction of its half extent along strike.
 pub const STRIKE_MARGIN: f64 = 0.1;
+/// How far sheets may leave their formulas in plan, as a fraction of the plan's diagonal: a millimetre in a kilometre.
+const EXACT: f64 = 1e-6;
+/// How far they may leave them in elevation, as a fraction of their unit's mean thickness.
+const EXACT_UP: f64 = 5e-5;
 /// Of a nudged frame: how far it moves along strike, and its borders by being turned, against how far it moves basinwards.
 const ASIDE: f64 = 0.43;
 const TURNED: f64 = 0.31;
@@ -106,6 +110,11 @@ impl ClinoformFrame {
     /// The place with coordinates d and q (m).
     pub fn place(&self, d: f64, q: f64) -> DVec2 {
         self.centre + self.dip * d + self.strike * q
+    }
+
+    /// How far sheets may leave their formulas in plan (m).
+    pub fn tolerance(&self) -> f64 {
+        EXACT * (self.high - self.low).length()
     }
 
     /// The unit vector down dip.
@@ -216,6 +225,11 @@ impl ClinoformUnit {
     /// The mean height of the unit in the domain (m).
     pub fn height(&self) -> f64 {
         self.height
+    }
+
+    /// How far sheets may leave their formulas in elevation (m).
+    pub fn tolerance(&self) -> f64 {
+        EXACT_UP * self.height
     }
 
     /// The lowest base and the highest top in the domain (m), by control heights.

@@ -404,7 +404,9 @@ fn plan_of(points: &[DVec3]) -> (DVec2, DVec2) {
     let (low, high) = points
         .iter()
         .fold(empty, |(low, high), p| (low.min(p.xy()), high.max(p.xy())));
-    let least = (0.1 * (high - low).max_element()).max(1e-6);
+    let tenth = 0.1 * (high - low).max_element();
+    // Points all above one place have no extent to take a part of.
+    let least = if tenth > 0.0 { tenth } else { 1.0 };
     let margin = (DVec2::splat(least) - (high - low)).max(DVec2::ZERO) / 2.0;
     (low - margin, high + margin)
 }

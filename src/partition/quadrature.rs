@@ -78,6 +78,9 @@ const INNER_AREA: f64 = 1e-3;
 const FLUX: f64 = 1e-12;
 /// How often a piece is halved at most: 2⁻¹² of a span is less than what any curve deviates by.
 const HALVINGS: u32 = 12;
+/// The same inside the domain. A sliver between nearly parallel sheets is the difference of areas far larger than its own, which
+/// no halving makes exact to a share of it.
+const INNER_HALVINGS: u32 = 5;
 
 /// A rule, and the weights with which some of its nodes make a poorer rule, to compare with.
 #[derive(Clone, Copy)]
@@ -231,13 +234,13 @@ fn of_face(
     // First without halving anything, which nearly always does.
     let domain = &geometry.regions.domain;
     let flux = FLUX * (domain.high - domain.low).length();
-    let allowed = if face.labels.contains(&None) {
-        [AREA, flux]
+    let (allowed, most) = if face.labels.contains(&None) {
+        ([AREA, flux], HALVINGS)
     } else {
-        [INNER_AREA, f64::INFINITY]
+        ([INNER_AREA, f64::INFINITY], INNER_HALVINGS)
     };
     let mut whole = Integral::default();
-    for halvings in [0, HALVINGS] {
+    for halvings in [0, most] {
         let goal = Goal {
             halvings,
             flux,

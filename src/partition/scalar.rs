@@ -172,12 +172,20 @@ fn halves(line: &[f64]) -> [Row; 2] {
     cut(line, 0.5)
 }
 
+/// The polynomial between two parameters. The cut far from the other end comes first: a parameter that is divided by what is
+/// next to nothing is far outside.
 fn restrict(line: &mut Row, s: f64, t: f64) {
+    if t < 0.5 {
+        let [_, after] = cut(line, s);
+        let [before, _] = cut(&after, (t - s) / (1.0 - s));
+        *line = before;
+        return;
+    }
     if t != 1.0 {
         let [before, _] = cut(line, t);
         *line = before;
     }
-    if s != 0.0 && t != 0.0 {
+    if s != 0.0 {
         let [_, after] = cut(line, s / t);
         *line = after;
     }
@@ -290,6 +298,28 @@ mod tests {
         [1.5, 0.25, -3.0, 0.75],
         [-2.0, 1.0, 0.5, -0.125],
     ];
+
+    #[test]
+    fn a_part_that_hardly_reaches_into_the_rectangle_has_the_values_of_the_whole() {
+        let whole = Scalar::new([4, 1], [1.0, -2.0, 3.0, 0.5], [[0.0, 15_000.0], [0.0, 1.0]]);
+        let near = |x: f64| value(&whole.line(0, 0), x / 15_000.0);
+        for range in [
+            [-0.03, 6e-12],
+            [-6e-12, 0.03],
+            [-0.03, 0.0],
+            [-1e-13, -1e-13],
+            [-40.0, -30.0],
+        ] {
+            let part = whole.over([range, [0.0, 1.0]]);
+            let line = part.line(0, 0);
+            for (x, found) in [(range[0], line[0]), (range[1], line[3])] {
+                assert!((found - near(x)).abs() < 1e-13, "{range:?}: {found}");
+            }
+            let [low, high] = part.values();
+            let slack = 1e-13 + 2e-3 * (range[1] - range[0]);
+            assert!(low > near(range[0]) - slack && high < near(range[0]) + slack);
+        }
+    }
 
     #[test]
     fn parts_halves_and_differences_have_the_values_of_the_polynomial_at_their_corners() {

@@ -143,8 +143,9 @@ fn a_right_model_is_proven_at_every_level() {
     for level in ["fast", "full"] {
         let text = text("real-data", "full-proof-false-alarm");
         let report = Report::of(&text, &["--proof", level]);
-        let miss = report.size("set-0/b2") / 1.226_067e9 - 1.0;
-        assert!(miss.abs() < 1e-6, "{level}: {miss}");
+        // By the kernel's Gauss-Kronrod integrals, which agree with ours to 1e-8.
+        let miss = report.size("set-0/b2") / 1.220_568_57e9 - 1.0;
+        assert!(miss.abs() < 1e-7, "{level}: {miss}");
     }
 }
 

@@ -14,8 +14,8 @@ use super::measure::Measured;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
 
-/// The model's tolerance: what shells are built to (m).
-const TOLERANCE: f64 = super::shapes::EXACT;
+/// The model's tolerance, as a share of the domain's diagonal: ten times what curves are followed to.
+const TOLERANCE: f64 = 1e-10;
 /// Mean distance by which the skin may be off in the sum of volumes, as a share of the domain's diagonal. Far below
 /// [`TOLERANCE`]: inner faces cancel, so only the ends of fitted curves on the skin count (measured: up to 2e-9 m in a
 /// domain of a kilometre), and a lost sliver of 0.05 m³ in a belt of 1000 m × 1000 m × 60 m must show.
@@ -201,6 +201,18 @@ impl Prover<'_> {
         &self.plan.names[volume]
     }
 
+    /// The model's tolerance (m); where the kernel has made the solids not below its own.
+    fn tolerance(&self) -> f64 {
+        let (low, high) = (self.plan.low(), self.plan.high());
+        let farthest = low.abs().max(high.abs()).max_element();
+        let own = TOLERANCE * (high - low).length() + ROUNDINGS * farthest;
+        if self.evidence.samples.is_some() {
+            own
+        } else {
+            own.max(super::shapes::EXACT)
+        }
+    }
+
     /// Mean distance by which the skin may be off in the sum of volumes (m).
     fn off(&self) -> f64 {
         let (low, high) = (self.plan.low(), self.plan.high());
@@ -289,6 +301,7 @@ impl Prover<'_> {
 
     /// The kernel's integrals give the same volumes.
     fn kernel_volumes(&self) -> Result<Check, ProofError> {
+        let tolerance = self.tolerance();
         let measured = Measured::of_solids(self.solids, self.plan)?;
         let of_solid = |of: &Measured| {
             // Thin pieces have much area for their volume: that of their box is a fair measure of it.
@@ -309,7 +322,7 @@ impl Prover<'_> {
             .iter()
             .zip(&theirs)
             .map(|(a, b)| {
-                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * TOLERANCE * a.3;
+                let bound = KERNEL_VOLUME * a.2.abs() + 10.0 * tolerance * a.3;
                 ((a.2 - b.2).abs() / bound, a.1, a.2, b.2)
             })
             .max_by(|a, b| a.0.total_cmp(&b.0))

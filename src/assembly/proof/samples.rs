@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Check, DOMAIN, ProofError, Prover, TOLERANCE};
+use super::{Check, DOMAIN, ProofError, Prover};
 use crate::assembly::kernel::{Classifier, FaceSample, Position, Threads, face_samples};
 use crate::model::Stream;
 use crate::model::rules::BACKGROUND;
@@ -91,6 +91,7 @@ impl Prover<'_> {
 
     /// Points 10 to 1000 tolerances beside faces belong to the solids on those sides.
     pub(super) fn beside_faces(&self) -> Result<Check, ProofError> {
+        let tolerance = self.tolerance();
         let faces = self.solids.faces().len().max(1);
         let each = BESIDE_FACES.div_ceil(faces).max(LEAST_A_FACE);
         let asked;
@@ -113,7 +114,7 @@ impl Prover<'_> {
             .flat_map_iter(|(i, sample)| {
                 // A golden-section sequence spreads the distances over the two decades.
                 let spread = (i as f64 * 0.618_033_988_749_895).fract();
-                let reach = TOLERANCE * 10_f64.powf(1.0 + 2.0 * spread);
+                let reach = tolerance * 10_f64.powf(1.0 + 2.0 * spread);
                 let sides = &sides[sample.face];
                 [(-1.0, sides[0]), (1.0, sides[1])]
                     .map(|(sign, expected)| self.beside(sample, sign * reach, expected))
@@ -144,7 +145,7 @@ impl Prover<'_> {
         );
         let agrees = |reach: f64| self.owners.at(point + normal * reach) == expected;
         // A face thinner than the distance has something else there: look nearer.
-        let right = agrees(reach) || agrees((10.0 * TOLERANCE).copysign(reach));
+        let right = agrees(reach) || agrees((10.0 * self.tolerance()).copysign(reach));
         let wrong = (!right).then(|| {
             let name = expected.map_or("outside", |owner| self.name(owner));
             format!("{name} at {point:.4}")
@@ -167,7 +168,7 @@ impl Prover<'_> {
         };
         // Where sheets end tangentially, what lies between them is thinner than any distance: beside the edge of a
         // wedge only a point at the face itself tells.
-        let in_wedge = touched && agrees((WEDGE * TOLERANCE).copysign(reach));
+        let in_wedge = touched && agrees((WEDGE * self.tolerance()).copysign(reach));
         Beside {
             face: sample.face,
             wrong: wrong.filter(|_| !in_wedge),
@@ -177,6 +178,7 @@ impl Prover<'_> {
 
     /// Points of every volume lie inside that volume's solids.
     pub(super) fn within_solids(&self) -> Result<Check, ProofError> {
+        let tolerance = self.tolerance();
         let volumes = 1 + self.plan.bodies.len();
         let each = self.options.proof.classified().div_ceil(volumes);
         let mut wrong = Vec::new();
@@ -208,9 +210,9 @@ impl Prover<'_> {
                 let mut inside = false;
                 for ((low, high), classifier) in &mut classifiers {
                     let near =
-                        point.cmpge(*low - TOLERANCE).all() && point.cmple(*high + TOLERANCE).all();
+                        point.cmpge(*low - tolerance).all() && point.cmple(*high + tolerance).all();
                     inside |=
-                        near && classifier.contains(point.to_array(), TOLERANCE)? != Position::Out;
+                        near && classifier.contains(point.to_array(), tolerance)? != Position::Out;
                 }
                 if !inside {
                     wrong.push(format!("{} at {point:.4}", self.name(volume)));

@@ -13,8 +13,8 @@
 //! base a sheet goes on along its tangent, unless it touches a level base: then it ends there.
 //!
 //! The ellipses are cubic splines in v. Between level horizons with E = 2 the net is exact in u, with three control
-//! points; else z is interpolated, with cubic splines that are refined until the sheet is within [`TOLERANCE`] of the
-//! formula in the domain. \[J19\] measures radially instead of along dip; for its Table 1 this makes a
+//! points; else z is interpolated, with cubic splines that are refined until the sheet is near enough to the
+//! formula in the domain ([`ClinoformFrame::tolerance`] in plan, [`ClinoformUnit::tolerance`] in elevation). \[J19\] measures radially instead of along dip; for its Table 1 this makes a
 //! difference of less than 3 mm in z.
 
 mod net;
@@ -26,8 +26,6 @@ use super::frame::{ClinoformFrame, ClinoformUnit, Shoreline};
 use crate::nurbs::interpolate::InterpolateError;
 use crate::nurbs::{Function, KnotError, Surface, SurfaceError};
 
-/// How far a sheet may leave its formula, in plan along dip and in elevation (m).
-pub const TOLERANCE: f64 = 1e-3;
 /// How far sheets go on above the top and below the base, as a fraction of the height there; more than the twentieth
 /// that is needed.
 const BEYOND: f64 = 0.06;
@@ -77,7 +75,7 @@ pub enum ClinoformError {
     },
     /// The finest sheet is not near enough to the formula.
     #[error(
-        "with {spans} spans the clinoform is still {reached:.4} m from its formula ({what}), more than {TOLERANCE} m; \
+        "with {spans} spans the clinoform is still {reached:.4} m from its formula ({what}), more than {tolerance:.4} m; \
          make the horizons smoother, the shoreline's ellipse wider or the exponent smaller"
     )]
     Deviation {
@@ -85,6 +83,8 @@ pub enum ClinoformError {
         what: &'static str,
         /// By how much (m).
         reached: f64,
+        /// The most that is allowed (m).
+        tolerance: f64,
         /// The spans in the direction that was refined.
         spans: usize,
     },

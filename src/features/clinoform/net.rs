@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{ClinoformDesign, ClinoformError, TOLERANCE};
+use super::{ClinoformDesign, ClinoformError};
 use crate::features::frame::{ClinoformFrame, ClinoformUnit};
 use crate::nurbs::interpolate::{self, InterpolateError};
 use crate::nurbs::{Function, KnotError, KnotVector, spans_probed};
@@ -42,18 +42,20 @@ impl Fit<'_> {
     /// The coarsest net that is within the tolerance.
     pub(super) fn refined(&self) -> Result<Net, ClinoformError> {
         let (mut spans_u, mut spans_v) = (1, STRIKE_SPANS);
+        let in_plan = self.frame.tolerance();
         let (along, mut ellipses) = loop {
             let along = KnotVector::uniform(3, spans_v + 3)?;
             let (ellipses, reached) = self.ellipses(&along)?;
-            if reached <= TOLERANCE {
+            if reached <= in_plan {
                 break (along, ellipses);
             }
-            spans_v = more(spans_v, "its ellipses", reached)?;
+            spans_v = more(spans_v, "its ellipses", [reached, in_plan])?;
         };
         let mut along = along;
         if let Some((base, top)) = self.unit.levels() {
             return self.level(base, top - base, along, ellipses);
         }
+        let tolerance = self.unit.tolerance();
         loop {
             let across = self.across(spans_u, 3)?;
             let origin = self.unit.base().level().unwrap_or(0.0);
@@ -61,7 +63,7 @@ impl Fit<'_> {
             let heights = interpolate::net(&across, &along, z)?;
             let [off_u, off_v, off] = self.deviations(&across, &along, &heights, &ellipses, &z);
             let heights: Vec<f64> = heights.iter().map(|z| z + origin).collect();
-            if off <= TOLERANCE {
+            if off <= tolerance {
                 return Ok(Net {
                     across,
                     along,
@@ -71,12 +73,12 @@ impl Fit<'_> {
                 });
             }
             // The direction to blame; both if neither is.
-            let both = !(off_u > TOLERANCE / 2.0 || off_v > TOLERANCE / 2.0);
-            if both || off_u > TOLERANCE / 2.0 {
-                spans_u = more(spans_u, "elevations down dip", off)?;
+            let both = !(off_u > tolerance / 2.0 || off_v > tolerance / 2.0);
+            if both || off_u > tolerance / 2.0 {
+                spans_u = more(spans_u, "elevations down dip", [off, tolerance])?;
             }
-            if both || off_v > TOLERANCE / 2.0 {
-                spans_v = more(spans_v, "elevations along strike", off)?;
+            if both || off_v > tolerance / 2.0 {
+                spans_v = more(spans_v, "elevations along strike", [off, tolerance])?;
                 along = KnotVector::uniform(3, spans_v + 3)?;
                 ellipses = self.ellipses(&along)?.0;
             }
@@ -98,7 +100,7 @@ impl Fit<'_> {
             let across = self.across(spans, degree)?;
             let profile = Function::interpolated(&across, z)?;
             let deviation = profile.deviation(z);
-            if deviation <= TOLERANCE {
+            if deviation <= self.unit.tolerance() {
                 let heights = profile
                     .coefficients()
                     .iter()
@@ -112,7 +114,11 @@ impl Fit<'_> {
                     deviation,
                 });
             }
-            spans = more(spans, "elevations down dip", deviation)?;
+            spans = more(
+                spans,
+                "elevations down dip",
+                [deviation, self.unit.tolerance()],
+            )?;
         }
     }
 
@@ -225,13 +231,18 @@ impl Fit<'_> {
 }
 
 /// Half as many spans again, if that is not too many.
-fn more(spans: usize, what: &'static str, reached: f64) -> Result<usize, ClinoformError> {
+fn more(
+    spans: usize,
+    what: &'static str,
+    [reached, tolerance]: [f64; 2],
+) -> Result<usize, ClinoformError> {
     if spans < MOST_SPANS {
         Ok((3 * spans).div_ceil(2).min(MOST_SPANS))
     } else {
         Err(ClinoformError::Deviation {
             what,
             reached,
+            tolerance,
             spans,
         })
     }

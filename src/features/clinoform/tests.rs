@@ -157,7 +157,7 @@ fn sheets_are_within_a_millimetre_of_the_formula_for_every_exponent_toe_and_dire
                 }
                 let design = design(&frame, exponent, toe);
                 let sheet = Clinoform::new(&design, &frame, unit).unwrap();
-                assert!(sheet.deviation() <= TOLERANCE);
+                assert!(sheet.deviation() <= unit.tolerance());
                 let (mut worst, mut met): (f64, i32) = (0.0, 0);
                 for place in places() {
                     let (z, u) = formula(&design, unit, azimuth, place);

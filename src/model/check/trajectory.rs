@@ -13,8 +13,10 @@ use crate::model::tree::{NodeId, Value, quoted};
 use crate::nurbs::interpolate::Parametrization;
 
 const KINDS: [&str; 4] = ["line", "points", "sine-generated", "parametric"];
-/// Points nearer to each other than this are the same point, in metres.
-const SAME_POINT: f64 = 1e-6;
+/// Points nearer to each other than this are the same point, as a fraction of the extent of all of them.
+const SAME_POINT: f64 = 1e-9;
+/// Coordinates that differ by less than this are the same, as a fraction of the greatest.
+const SAME_COORDINATE: f64 = 1e-12;
 const HIGHEST_DEGREE: usize = 3;
 
 /// The trajectory under examination.
@@ -198,13 +200,19 @@ impl Checker<'_> {
                 "add points: [[0, 400], [500, 600], [1000, 500]]",
             );
         }
+        let read = |&element: &NodeId| Some((element, self.reader.read::<[f64; 2]>(element)?));
+        let read: Vec<(NodeId, [f64; 2])> = elements.iter().filter_map(read).collect();
+        let [first, ..] = read.as_slice() else {
+            return None;
+        };
+        let away = read
+            .iter()
+            .map(|(_, [x, y])| (x - first.1[0]).hypot(y - first.1[1]));
+        let extent = away.fold(0.0, f64::max);
         let mut points: Vec<[f64; 2]> = Vec::new();
-        for &element in elements {
-            let Some([x, y]) = self.reader.read::<[f64; 2]>(element) else {
-                continue;
-            };
+        for (element, [x, y]) in read {
             if let Some(&[a, b]) = points.last()
-                && (x - a).hypot(y - b) <= SAME_POINT
+                && (x - a).hypot(y - b) <= SAME_POINT * extent
             {
                 self.reader.wrong(
                     element,
@@ -276,7 +284,11 @@ impl Checker<'_> {
         let [Some(xs), Some(ys)] = tried else {
             return None;
         };
-        let varies = |values: &[f64]| values.iter().any(|v| (v - values[0]).abs() > SAME_POINT);
+        let varies = |values: &[f64]| {
+            let greatest = values.iter().map(|v| v.abs()).fold(0.0, f64::max);
+            let differs = |v: &f64| (v - values[0]).abs() > SAME_COORDINATE * greatest;
+            values.iter().any(differs)
+        };
         if !varies(&xs) && !varies(&ys) {
             self.reader.wrong(
                 table.node,

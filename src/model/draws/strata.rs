@@ -19,10 +19,9 @@ const FLATTEST: f64 = 2.0;
 /// `toe` where the bounds are not level, or the exponent is larger than that, and none is given: a sheet that meets a bent base tangentially would cross it
 /// again and again.
 const TOE: f64 = 0.3;
-/// Distance between the nodes of a facies boundary along strike (m).
-const NODES: [f64; 2] = [60.0, 120.0];
-/// Fewest legs of a facies boundary along strike.
-const LEGS: f64 = 6.0;
+/// Distance between the nodes of a facies boundary along strike, as fractions of the strikes that sheets run over: 60 to
+/// 120 m in the case study of \[J19\].
+const NODES: [f64; 2] = [0.0767, 0.1534];
 
 /// A side with what was drawn for it.
 #[derive(Clone, Debug)]
@@ -265,8 +264,7 @@ impl Set<'_> {
     fn nodes(&self, draws: &Draws<'_>, parameter: &str) -> Vec<[f64; 2]> {
         let mut stream = draws.stream(parameter);
         let reach = self.frame.reach();
-        let longest = 2.0 * reach / LEGS;
-        let scale = (longest / NODES[1]).min(1.0);
+        let scale = 2.0 * reach;
         let mut q = -reach - scale * NODES[1] * stream.unit();
         let mut side = if stream.unit() < 0.5 { -0.5 } else { 0.5 };
         let mut nodes = vec![[q, side]];
