@@ -255,8 +255,7 @@ fn range(sheet: &Surface, low: DVec2, high: DVec2) -> Result<(f64, f64), RefineE
 fn sheet_measures(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Measures, RefineError> {
     let inner = within(sheet, low, high)?;
     let mut all = Measures::default();
-    let patches = inner.bezier_patches();
-    for patch in &patches {
+    for patch in inner.bezier_patches() {
         let net = patch.net();
         let size = net[net.len() - 1].xy() - net[0].xy();
         let mean = |heights: &mut dyn Iterator<Item = f64>| {
@@ -265,7 +264,7 @@ fn sheet_measures(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Measures, 
         };
         let plan = size.x * size.y;
         all.under += plan * mean(&mut net.iter().map(|p| p.z));
-        let [own, error] = area(patch);
+        let [own, error] = area(&patch);
         all.area += own;
         all.error += error;
         // Walls along the sides of patches that lie on the plan's.

@@ -44,11 +44,11 @@ pub struct Absence {
 /// Where there is nothing, and how much of the data was given up for that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
-    /// Lower corner of a box in plan that holds the nodes.
+    /// Lower corner of a box in plan that holds the cells.
     pub low: DVec2,
     /// Upper corner.
     pub high: DVec2,
-    /// The area that belongs to the nodes (m²).
+    /// The area of the cells (m²).
     pub area: f64,
     /// The volume of the thicknesses there, whatever their signs (m³).
     pub volume: f64,
@@ -224,27 +224,30 @@ impl Absence {
             .sum()
     }
 
-    /// Where within a plan there is nothing, and what the thicknesses there sum up to.
+    /// Where within a plan there is nothing at all corners of a cell, and what the thicknesses there sum up to.
     pub fn extent(&self, nodes: &Nodes, thickness: &[f64], [low, high]: [DVec2; 2]) -> Extent {
-        let counts = DVec2::new(self.counts[0] as f64, self.counts[1] as f64);
-        let half = 0.5 * (nodes.high - nodes.low) / (counts - 1.0);
+        let [nx, ny] = self.counts;
         let mut extent = Extent {
             low: DVec2::INFINITY,
             high: DVec2::NEG_INFINITY,
             area: 0.0,
             volume: 0.0,
         };
-        for entry in (0..thickness.len()).filter(|entry| self.is_absent[*entry]) {
-            let at = nodes.place(entry);
-            // Half a cell to each side, within the plan and the grid.
-            let from = (at - half).max(low).max(nodes.low);
-            let to = (at + half).min(high).min(nodes.high);
+        for first in (0..nx - 1).flat_map(|i| (0..ny - 1).map(move |j| i * ny + j)) {
+            let corners = [first, first + 1, first + ny, first + ny + 1];
+            let from = nodes.place(first).max(low);
+            let to = nodes.place(first + ny + 1).min(high);
             let area = (to - from).max(DVec2::ZERO).element_product();
-            if area > 0.0 {
-                extent.low = extent.low.min(at.max(low));
-                extent.high = extent.high.max(at.min(high));
+            if area > 0.0 && corners.iter().all(|corner| self.is_absent[*corner]) {
+                let mean = corners
+                    .iter()
+                    .map(|corner| thickness[*corner].abs())
+                    .sum::<f64>()
+                    / 4.0;
+                extent.low = extent.low.min(from);
+                extent.high = extent.high.max(to);
                 extent.area += area;
-                extent.volume += area * thickness[entry].abs();
+                extent.volume += area * mean;
             }
         }
         extent
@@ -352,16 +355,15 @@ mod tests {
     }
 
     #[test]
-    fn the_extent_is_that_of_the_nodes_shares_within_the_plan() {
+    fn the_extent_is_that_of_the_cells_within_the_plan() {
         let given = along(&[2.0, 0.5, 0.5, 0.5]);
         let nodes = nodes(4);
         let absence = Absence::at_nodes(&given, nodes.counts, 0.5);
         let plan = [DVec2::ZERO, DVec2::new(220.0, 150.0)];
         let extent = absence.extent(&nodes, &given, plan);
-        // From half a cell before the first node to the plan's border.
-        assert!((extent.area - 170.0 * 150.0).abs() < 1e-9, "{extent:?}");
+        assert!((extent.area - 120.0 * 150.0).abs() < 1e-9, "{extent:?}");
         assert!((extent.volume - 0.5 * extent.area).abs() < 1e-9);
-        assert_eq!((extent.low.x, extent.high.x), (100.0, 220.0));
+        assert_eq!((extent.low, extent.high), (DVec2::new(100.0, 0.0), plan[1]));
     }
 
     #[test]

@@ -104,8 +104,19 @@ impl Surface {
         ))
     }
 
+    /// The same surface with every knot as often as its degree says: the nets of its polynomial or rational pieces are parts
+    /// of its net, and neighbours have their common row.
+    pub fn in_patches(&self) -> Self {
+        let along_u = self
+            .transposed()
+            .refined_v(&self.knots_u().missing_for_bezier());
+        along_u
+            .transposed()
+            .refined_v(&self.knots_v().missing_for_bezier())
+    }
+
     /// The polynomial or rational pieces, u-major, each with its own part of the domain.
-    pub fn bezier_patches(&self) -> Vec<Self> {
+    pub fn bezier_patches(&self) -> impl Iterator<Item = Self> + use<> {
         let strips = |surface: &Self| -> Vec<Self> {
             let refined = surface.refined_v(&surface.knots_v().missing_for_bezier());
             let degree = refined.knots_v().degree();
@@ -122,9 +133,8 @@ impl Surface {
         };
         let across = strips(&self.transposed());
         across
-            .iter()
-            .flat_map(|strip| strips(&strip.transposed()))
-            .collect()
+            .into_iter()
+            .flat_map(move |strip| strips(&strip.transposed()))
     }
 
     /// The surface of some columns of the net, with the knots that belong to them.

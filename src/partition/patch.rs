@@ -56,7 +56,17 @@ impl Patch {
             .zip(weights)
             .map(|(p, w)| (*p * *w).extend(*w))
             .collect();
-        let mut patch = Self {
+        Self::unmeasured(rows, net, rational, u, v).measured()
+    }
+
+    /// A patch without weights, from its net, u-major; what it is thin across is not known yet.
+    pub(super) fn polynomial(rows: usize, net: &[DVec3], u: [f64; 2], v: [f64; 2]) -> Self {
+        let net = net.iter().map(|p| p.extend(1.0)).collect();
+        Self::unmeasured(rows, net, false, u, v)
+    }
+
+    fn unmeasured(rows: usize, net: Net, rational: bool, u: [f64; 2], v: [f64; 2]) -> Self {
+        Self {
             rows,
             columns: net.len() / rows,
             rational,
@@ -66,9 +76,13 @@ impl Patch {
             v,
             thin: DVec3::ZERO,
             slab: [0.0; 2],
-        };
-        patch.measure();
-        patch
+        }
+    }
+
+    /// The same with what it is thin across.
+    pub(super) fn measured(mut self) -> Self {
+        self.measure();
+        self
     }
 
     /// Finds what it is thin across.

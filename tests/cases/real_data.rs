@@ -67,6 +67,24 @@ fn a_bed_may_end_as_a_wedge_at_the_domains_border() {
 }
 
 #[test]
+fn a_bed_ends_in_a_wedge_where_the_two_heights_become_equal() {
+    let report = Report::case("real-data", "pinch");
+    // 20 m in the west, nothing from the middle on: a triangle. The older horizon is level, and nothing swings below it.
+    let wedge = 20.0 * 500.0 / 2.0 * 800.0;
+    report.assert_sizes(
+        &[
+            ("background", 32e6),
+            ("lower", wedge),
+            ("upper", 48e6 - wedge),
+        ],
+        1e-4,
+    );
+    assert!((report.size("background") / 32e6 - 1.0).abs() < 1e-9);
+    assert_eq!(report.pieces("lower"), 1);
+    assert!(report.decides("lower and upper is absent", "400000 m²"));
+}
+
+#[test]
 fn layers_of_real_horizons_have_no_thickness_where_the_data_have_none() {
     let report = Report::case("real-data", "drogon-zero-thickness");
     let case = table("real-data", "drogon-zero-thickness");
