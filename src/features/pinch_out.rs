@@ -23,6 +23,10 @@ const BELOW: f64 = 1e-3;
 /// Rings of nodes around which the slope goes on as it is; then it is halved from ring to ring.
 const STRAIGHT: usize = 4;
 
+/// How many times finer nodes are tried for a thickness that ends, and how many nodes that may be.
+const FINER: [usize; 4] = [8, 4, 3, 2];
+const MOST_NODES: usize = 20_000;
+
 /// The nodes of a grid: node i along x and j along y is entry `i * counts[1] + j` of a list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nodes {
@@ -69,6 +73,22 @@ impl Nodes {
         entries.map(|entry| f(self.place(entry))).collect()
     }
 
+    /// A function where it is above 0, and about 0 elsewhere: through ever finer nodes that hold these, as many as are not too
+    /// many, so that it swings the less where the function crosses 0. `None` if these are too many already.
+    pub fn clamped(&self, function: &Horizon) -> Result<Option<Horizon>, HorizonError> {
+        let finer = |times: usize| Self {
+            counts: self.counts.map(|count| (count - 1) * times + 1),
+            ..*self
+        };
+        let fits = |times: &usize| finer(*times).counts.iter().product::<usize>() <= MOST_NODES;
+        let Some(times) = FINER.into_iter().find(fits) else {
+            return Ok(None);
+        };
+        let nodes = finer(times);
+        let values = nodes.sample(|at| function.height(at.x, at.y).max(0.0));
+        nodes.interpolated(&values).map(Some)
+    }
+
     /// The function with these values at the nodes.
     pub fn interpolated(&self, values: &[f64]) -> Result<Horizon, HorizonError> {
         let [nx, ny] = self.counts;
@@ -77,6 +97,24 @@ impl Nodes {
             .collect();
         let (x, y) = ([self.low.x, self.high.x], [self.low.y, self.high.y]);
         Horizon::grid(x, y, &rows)
+    }
+}
+
+/// A mean of some values.
+#[derive(Clone, Copy, Default)]
+struct Mean {
+    sum: f64,
+    count: f64,
+}
+
+impl Mean {
+    fn add(&mut self, value: f64) {
+        self.sum += value;
+        self.count += 1.0;
+    }
+
+    fn value(self) -> Option<f64> {
+        (self.count > 0.0).then(|| self.sum / self.count)
     }
 }
 
@@ -144,6 +182,11 @@ impl Absence {
         !self.is_absent.contains(&true)
     }
 
+    /// Whether there is nothing anywhere.
+    pub fn is_all(&self) -> bool {
+        !self.is_absent.contains(&false)
+    }
+
     /// Whether there is nothing at a node.
     pub fn at(&self, entry: usize) -> bool {
         self.is_absent[entry]
@@ -186,23 +229,25 @@ impl Absence {
         values
     }
 
-    /// The value of a node beside known ones: the mean of what the slopes towards it lead to.
+    /// The value of a node beside known ones: the mean of what the slopes towards it lead to, where any are known.
     fn next(&self, entry: usize, values: &[f64], is_known: &[bool], ring: usize) -> Option<f64> {
-        let mut sum = 0.0;
-        let mut thickest: f64 = 0.0;
-        let mut count = 0.0;
         let mut slower = 1.0;
         for _ in STRAIGHT..ring {
             slower *= 0.5;
         }
+        let mut thickest: f64 = 0.0;
+        let mut sloping = Mean::default();
+        let mut level = Mean::default();
         for (near, step) in around(entry, self.counts).filter(|(near, _)| is_known[*near]) {
-            let far = beside(near, step, self.counts).filter(|far| is_known[*far]);
-            let fall = far.map_or(0.0, |far| (values[far] - values[near]).max(0.0));
-            sum += values[near] - slower * fall;
             thickest = thickest.max(values[near]);
-            count += 1.0;
+            level.add(values[near]);
+            if let Some(far) = beside(near, step, self.counts).filter(|far| is_known[*far]) {
+                let fall = (values[far] - values[near]).max(0.0);
+                sloping.add(values[near] - slower * fall);
+            }
         }
-        (count > 0.0).then(|| (sum / count).min(-BELOW * thickest))
+        let mean = sloping.value().or_else(|| level.value())?;
+        Some(mean.min(-BELOW * thickest))
     }
 
     /// How rough heights are in the area and around it: the sum of the squares of their second differences.
@@ -337,6 +382,30 @@ mod tests {
             }
             assert!((spline.height(100.0, 100.0) - edge[1]).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn a_clamped_thickness_is_itself_where_there_is_one_and_about_nothing_elsewhere() {
+        let given = along(&[20.0, 10.0, 0.0, 0.0, 0.0]);
+        let nodes = nodes(5);
+        let absence = Absence::at_nodes(&given, nodes.counts, 0.0);
+        let continued = nodes.interpolated(&absence.continued(&given, 0.0)).unwrap();
+        let clamped = nodes.clamped(&continued).unwrap().unwrap();
+        let sum: f64 = (0..4000)
+            .map(|k| {
+                let x = 0.1 * (f64::from(k) + 0.5);
+                let right = (20.0 - x / 10.0).max(0.0);
+                // A spline through nodes 12.5 m apart swings by a tenth of what it falls between them.
+                assert!((clamped.height(x, 50.0) - right).abs() < 0.15, "at {x}");
+                0.1 * clamped.height(x, 50.0)
+            })
+            .sum();
+        assert!((sum / 2000.0 - 1.0).abs() < 2e-3, "{sum}");
+        let many = Nodes {
+            counts: [200, 200],
+            ..nodes
+        };
+        assert!(many.clamped(&continued).unwrap().is_none());
     }
 
     #[test]

@@ -104,37 +104,18 @@ impl Surface {
         ))
     }
 
-    /// The same surface with every knot as often as its degree says: the nets of its polynomial or rational pieces are parts
-    /// of its net, and neighbours have their common row.
-    pub fn in_patches(&self) -> Self {
-        let along_u = self
-            .transposed()
-            .refined_v(&self.knots_u().missing_for_bezier());
-        along_u
-            .transposed()
-            .refined_v(&self.knots_v().missing_for_bezier())
-    }
-
     /// The polynomial or rational pieces, u-major, each with its own part of the domain.
     pub fn bezier_patches(&self) -> impl Iterator<Item = Self> + use<> {
-        let strips = |surface: &Self| -> Vec<Self> {
-            let refined = surface.refined_v(&surface.knots_v().missing_for_bezier());
-            let degree = refined.knots_v().degree();
-            let strip = |(k, knots): (usize, KnotVector)| {
-                refined.columns(knots, k * degree..(k + 1) * degree + 1)
-            };
-            refined
-                .knots_v()
-                .pieces()
-                .into_iter()
-                .enumerate()
-                .map(strip)
-                .collect()
-        };
-        let across = strips(&self.transposed());
-        across
-            .into_iter()
-            .flat_map(move |strip| strips(&strip.transposed()))
+        self.bezier_strips().flat_map(|strip| strips(&strip))
+    }
+
+    /// The parts between neighbouring knots in u, in which every knot in v is as often there as the degree says: the nets of
+    /// the pieces are parts of theirs, and neighbours have their common points. One is made after the other.
+    pub fn bezier_strips(&self) -> impl Iterator<Item = Self> + use<> {
+        strips(&self.transposed()).map(|strip| {
+            let strip = strip.transposed();
+            strip.refined_v(&strip.knots_v().missing_for_bezier())
+        })
     }
 
     /// The surface of some columns of the net, with the knots that belong to them.
@@ -148,6 +129,14 @@ impl Surface {
             self.is_rational(),
         )
     }
+}
+
+/// The parts between neighbouring knots in v.
+fn strips(surface: &Surface) -> impl Iterator<Item = Surface> + use<> {
+    let refined = surface.refined_v(&surface.knots_v().missing_for_bezier());
+    let degree = refined.knots_v().degree();
+    let pieces = refined.knots_v().pieces().into_iter().enumerate();
+    pieces.map(move |(k, knots)| refined.columns(knots, k * degree..(k + 1) * degree + 1))
 }
 
 /// Some columns of a net with rows of a length.

@@ -230,24 +230,24 @@ fn a_thickness_that_is_drawn_is_in_the_report_and_the_same_whatever_is_left_out(
 
 #[test]
 fn below_the_least_thickness_a_bed_is_absent() {
-    // Two exports of one surface that differ by centimetres in the east.
+    // A level, and an export of it that differs by centimetres in the east.
     let noisy = "surface = { grid = { x = [0, 1000], y = [0, 800], heights = [
-        [-50, -56, -66.02, -71, -73.03, -70], [-48, -54, -63, -69.01, -72, -70.98], [-46, -55, -60.99, -66, -70.02, -72],
-        [-49, -58, -64, -65.02, -67.99, -70], [-52, -62, -66, -64, -66.01, -69]] } }";
-    let text = model("least_thickness = 0.05", &[("h1", &bent()), ("h2", noisy)]);
+        [-50, -62, -70.02, -70, -70.03, -70], [-50, -62, -70, -70.01, -70, -69.98], [-50, -62, -69.99, -70, -70.02, -70],
+        [-50, -62, -70, -70.02, -69.99, -70], [-50, -62, -70, -70, -70.01, -70]] } }";
+    let text = model(
+        "least_thickness = 0.05",
+        &[("h1", "surface = { level = -70 }"), ("h2", noisy)],
+    );
     let report = Report::of(&text, &[]);
     assert_eq!(report.pieces("h1"), 1);
-    assert!(report.decides("between h1 and h2 is absent", "x from 400 to 1000"));
-    // Neither lies where the other is in the east, to the noise of the data and the swing of splines between nodes.
-    let miss = report.size("background") / below_bent() - 1.0;
-    assert!(miss.abs() < 2e-3, "{miss}");
-    // As thick as its nodes say in the west: 14, 8 and 0 m on the average of rows, evenly between.
-    let bed = 800.0 * 200.0 * (18.0 / 2.0 + 8.0 + 0.0);
-    assert!(
-        (report.size("h1") / bed - 1.0).abs() < 0.1,
-        "{}",
-        report.size("h1")
-    );
+    let words = "between h1 and h2 is absent, and the surface of h1 stays";
+    assert!(report.decides(words, "x from 400 to 1000"));
+    let miss = report.size("background") / (30.0 * PLAN) - 1.0;
+    assert!(miss.abs() < 1e-6, "{miss}");
+    // 20 m in the west and 8 m after 200 m: straight on, the bed ends after a third of a kilometre.
+    let bed = 20.0 * (1000.0 / 3.0) / 2.0 * 800.0;
+    let miss = report.size("h1") / bed - 1.0;
+    assert!(miss.abs() < 1e-2, "{miss}");
 }
 
 #[test]
@@ -263,4 +263,30 @@ fn no_thickness_anywhere_is_no_bed() {
         assert!((report.size("background") / below - 1.0).abs() < 1e-6);
         assert!((report.size("h2") / (100.0 * PLAN - below) - 1.0).abs() < 1e-6);
     }
+}
+
+#[test]
+fn the_beds_of_the_committed_model_are_as_thick_as_it_says() {
+    let text = include_str!("../../models/isochores/isochores.toml");
+    let report = Report::of(text, &["--proof", "full"]);
+    let plan = 3000.0 * 2000.0;
+    let case: toml::Table = text.parse().unwrap();
+    let structure = Grid::of(&case["feature"][0]["surface"]);
+    let below = integral(&[&structure], |z| z[0] + 130.0);
+    let (sheet, wedge) = (12.0 * plan, 18.0 * 1500.0 / 2.0 * 2000.0);
+    let lobe = std::f64::consts::PI * 800.0 * 800.0 * 15.0 / 2.0;
+    let sizes = [
+        ("background", below),
+        ("sheet-sand", sheet),
+        ("shale", wedge),
+        ("lobe", lobe),
+        ("cover", 110.0 * plan - below - sheet - wedge - lobe),
+    ];
+    // The lobe's foot is told by nodes 200 m from each other, and the splines of two beds that end cross there.
+    report.assert_sizes(&sizes, 1.5e-3);
+    for (name, _) in sizes {
+        assert_eq!(report.pieces(name), 1, "{name}");
+    }
+    assert!((report.size("background") / below - 1.0).abs() < 1e-7);
+    assert!(report.decides("between shale and lobe is absent", "3000000 m²"));
 }

@@ -15,14 +15,16 @@
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::pinch_out::{self, Absence, Nodes};
 use crate::model::realisation::RealisationError;
 use crate::model::selection::Selection;
 use crate::model::spec::{Feature, FeatureKind, HorizonSurface, Model};
+use crate::nurbs::Lattice;
 
 /// Heights are equal within this fraction of the domain's diagonal, whatever the least thickness: what rounding leaves.
 const ROUNDING: f64 = 1e-12;
@@ -45,16 +47,29 @@ impl Strata {
     pub(super) fn of(
         model: &Model,
         selection: &Selection,
-        mut drawn: BTreeMap<usize, Horizon>,
+        drawn: BTreeMap<usize, Horizon>,
         bounds: &[Horizon; 2],
     ) -> Result<Self, RealisationError> {
+        let least = model.domain.least_thickness.max(ROUNDING * diagonal(model));
         let mut given: BTreeMap<usize, Horizon> = BTreeMap::new();
-        for (&feature, horizon) in &drawn {
+        let mut beds: BTreeMap<usize, Bed> = BTreeMap::new();
+        for (feature, horizon) in drawn {
+            let id = &model.features[feature].id;
             let own = match surface(model, feature) {
-                Some(HorizonSurface::Above { horizon: below, .. }) => given
-                    .get(below)
-                    .map_or_else(|| horizon.clone(), |below| below.plus(horizon)),
-                _ => horizon.clone(),
+                Some(HorizonSurface::Above {
+                    horizon: below,
+                    thickness,
+                }) => {
+                    let bed = Bed::of(horizon, thickness, least);
+                    let bed = bed.map_err(|error| impossible(id, &error))?;
+                    let reference = &bed.reference;
+                    let own = given
+                        .get(below)
+                        .map_or_else(|| reference.clone(), |below| below.plus(reference));
+                    beds.insert(feature, bed);
+                    own
+                }
+                _ => horizon,
             };
             given.insert(feature, own);
         }
@@ -92,19 +107,18 @@ impl Strata {
             layers,
             samples: BTreeMap::new(),
             grids: Vec::new(),
-            least: model.domain.least_thickness.max(ROUNDING * diagonal(model)),
+            least,
             decisions: Vec::new(),
         };
         for (at, feature) in features.iter().enumerate() {
-            let Some(HorizonSurface::Above { horizon, thickness }) = surface(model, *feature)
-            else {
+            let Some(HorizonSurface::Above { horizon, .. }) = surface(model, *feature) else {
                 continue;
             };
             // What is left out has no side on which anything could rest: its surface is a reference.
             if let Some(below) = features.iter().position(|other| other == horizon)
-                && let Some(own) = drawn.remove(feature)
+                && let Some(bed) = beds.remove(feature)
             {
-                let made = decided.isochore([below, at], &own, thickness);
+                let made = decided.isochore([below, at], bed);
                 made.map_err(|error| impossible(&model.features[*feature].id, &error))?;
             }
         }
@@ -175,6 +189,50 @@ fn bound_nodes(surface: Option<&HorizonSurface>) -> Option<Nodes> {
     surface.and_then(|surface| nodes(surface, &[]))
 }
 
+/// The thickness of a bed over the plan.
+struct Bed {
+    /// What the horizon above it lies above the one below it, for whatever refers to it.
+    reference: Horizon,
+    /// The same, going on below 0 where there is nothing.
+    continued: Horizon,
+    /// The nodes of its grid, the thicknesses there, and where they are nothing.
+    none: Option<(Nodes, Vec<f64>, Absence)>,
+}
+
+impl Bed {
+    fn of(drawn: Horizon, spec: &HorizonSurface, least: f64) -> Result<Self, HorizonError> {
+        match (spec, nodes(spec, &[])) {
+            (HorizonSurface::Points { points, tolerance }, _) => Ok(Self {
+                continued: pinch_out::continued_points(points, *tolerance, least, &drawn)?,
+                reference: drawn,
+                none: None,
+            }),
+            (_, Some(nodes)) => {
+                let thickness = nodes.sample(|at| drawn.height(at.x, at.y));
+                let absence = Absence::at_nodes(&thickness, nodes.counts, least);
+                if absence.is_empty() || absence.is_all() {
+                    return Ok(Self::everywhere(drawn));
+                }
+                let continued = nodes.interpolated(&absence.continued(&thickness, least))?;
+                Ok(Self {
+                    reference: nodes.clamped(&continued)?.unwrap_or(drawn),
+                    continued,
+                    none: Some((nodes, thickness, absence)),
+                })
+            }
+            _ => Ok(Self::everywhere(drawn)),
+        }
+    }
+
+    fn everywhere(drawn: Horizon) -> Self {
+        Self {
+            reference: drawn.clone(),
+            continued: drawn,
+            none: None,
+        }
+    }
+}
+
 /// A horizon that takes part, or the domain's top.
 struct Layer {
     name: String,
@@ -213,45 +271,24 @@ struct Deciding<'a> {
 }
 
 impl Deciding<'_> {
-    /// Lets a horizon end where its thickness above an older one is none.
-    fn isochore(
-        &mut self,
-        [below, at]: [usize; 2],
-        thickness: &Horizon,
-        spec: &HorizonSurface,
-    ) -> Result<(), HorizonError> {
-        let mut own = thickness.clone();
-        match spec {
-            HorizonSurface::Grid { .. } => {
-                let nodes = self.layers[at].nodes;
-                if let Some(nodes) = nodes {
-                    let values = nodes.sample(|at| thickness.height(at.x, at.y));
-                    let absence = Absence::at_nodes(&values, nodes.counts, self.least);
-                    if !absence.is_empty() {
-                        own = nodes.interpolated(&absence.continued(&values, self.least))?;
-                        self.tell(below, at, &nodes, &values, &absence, below);
-                        let contact = Contact {
-                            nodes,
-                            thickness: values,
-                            absence,
-                            rests: true,
-                            is_open: false,
-                        };
-                        if below + 1 == at {
-                            self.contacts[at] = Some(contact);
-                        }
-                    }
-                }
+    /// Lets a horizon rest on an older one where its thickness above that is none.
+    fn isochore(&mut self, [below, at]: [usize; 2], bed: Bed) -> Result<(), HorizonError> {
+        if let Some((nodes, thickness, absence)) = bed.none {
+            self.tell(below, at, &nodes, &thickness, &absence, below);
+            if below + 1 == at {
+                self.contacts[at] = Some(Contact {
+                    nodes,
+                    thickness,
+                    absence,
+                    rests: true,
+                    is_open: false,
+                });
             }
-            HorizonSurface::Points { points, tolerance } => {
-                own = pinch_out::continued_points(points, *tolerance, self.least, thickness)?;
-            }
-            _ => {}
         }
-        self.layers[at].sheet = self.layers[below].given.plus(&own);
+        self.layers[at].sheet = self.layers[below].given.plus(&bed.continued);
         let [x, y] = [self.model.domain.x, self.model.domain.y];
-        let corner = |i: usize| glam::DVec3::new(x[i], y[i], 0.0);
-        if own.range(corner(0), corner(1))?.0 <= 0.0 {
+        let corner = |i: usize| DVec3::new(x[i], y[i], 0.0);
+        if bed.continued.range(corner(0), corner(1))?.0 <= 0.0 {
             self.layers[at].above = Some(below);
         }
         Ok(())
@@ -323,7 +360,8 @@ impl Deciding<'_> {
         let (older, younger) = (self.sample(at - 1, &nodes), self.sample(at, &nodes));
         let thickness = minus(&younger, &older);
         let absence = Absence::over_areas(&thickness, nodes.counts, self.least);
-        if absence.is_empty() {
+        let alike = || are_alike(&self.layers[at - 1].given, &self.layers[at].given);
+        if absence.is_empty() || absence.is_all() && alike() {
             return None;
         }
         let layer = &self.layers[at];
@@ -386,11 +424,13 @@ impl Deciding<'_> {
     /// How a layer goes on above those that cut it.
     fn raised(&mut self, at: usize, lowered: Option<&Change>) -> Option<Change> {
         // What rests on it, directly or on what does, does not cut it.
-        let resting = |one: &Option<Contact>| one.as_ref().is_some_and(|contact| contact.rests);
-        let above = self.contacts[at + 1..]
-            .iter()
-            .take_while(|one| resting(one));
-        let first = at + 1 + above.count();
+        let rests = |younger: &usize| {
+            let contact = self.contacts[*younger].as_ref();
+            self.layers[*younger].above == Some(*younger - 1)
+                || contact.is_some_and(|contact| contact.rests)
+        };
+        let resting = (at + 1..self.layers.len()).take_while(rests);
+        let first = at + 1 + resting.count();
         let cutting: Vec<usize> = (first..self.layers.len())
             .filter(|younger| !self.layers[*younger].is_onlapping)
             .collect();
@@ -417,7 +457,8 @@ impl Deciding<'_> {
         if let Some(lowered) = lowered.filter(|lowered| lowered.nodes == nodes) {
             absence = absence.without(|k| lowered.absence.at(k));
         }
-        if absence.is_empty() {
+        let alike = |other: usize| are_alike(&self.layers[at].given, &self.layers[other].given);
+        if absence.is_empty() || absence.is_all() && alike(other) {
             return None;
         }
         if let Some(k) = (0..closest.len()).find(|k| absence.at(*k)) {
@@ -453,7 +494,8 @@ impl Deciding<'_> {
                 let floor = nodes.sample(|at| base.height(at.x, at.y));
                 let thickness = minus(&self.sample(at, &nodes), &floor);
                 let absence = Absence::over_areas(&thickness, nodes.counts, self.least);
-                (!absence.is_empty()).then(|| {
+                let alike = || absence.is_all() && are_alike(base, &self.layers[at].given);
+                (!absence.is_empty() && !alike()).then(|| {
                     let values = minus(&absence.continued(&thickness, self.least), &thickness);
                     Change {
                         nodes,
@@ -527,6 +569,13 @@ struct Change {
     values: Vec<f64>,
     /// The layer that cuts it.
     other: usize,
+}
+
+/// Whether two horizons that are equal everywhere are so by their form: these are one to the plan.
+fn are_alike(one: &Horizon, other: &Horizon) -> bool {
+    let frame = |lattice: &Arc<Lattice>| (lattice.corners(), lattice.counts());
+    let frames = |horizon: &Horizon| horizon.lattices().iter().map(frame).collect::<Vec<_>>();
+    frames(one) == frames(other)
 }
 
 fn minus(one: &[f64], other: &[f64]) -> Vec<f64> {
