@@ -24,7 +24,7 @@ pub(super) enum Along {
 }
 
 /// Homogeneous control points.
-type Net = SmallVec<[DVec4; 16]>;
+pub(super) type Net = SmallVec<[DVec4; 16]>;
 
 /// A Bézier patch over a rectangle of its surface's parameters.
 #[derive(Clone, Debug)]
@@ -56,21 +56,21 @@ impl Patch {
             .zip(weights)
             .map(|(p, w)| (*p * *w).extend(*w))
             .collect();
-        Self::unmeasured(rows, net, rational, u, v).measured()
+        Self {
+            rational,
+            ..Self::bare(rows, net, u, v)
+        }
+        .measured()
     }
 
-    /// A patch without weights, from its net, u-major; what it is thin across is not known yet.
-    pub(super) fn polynomial(rows: usize, net: &[DVec3], u: [f64; 2], v: [f64; 2]) -> Self {
-        let net = net.iter().map(|p| p.extend(1.0)).collect();
-        Self::unmeasured(rows, net, false, u, v)
-    }
-
-    fn unmeasured(rows: usize, net: Net, rational: bool, u: [f64; 2], v: [f64; 2]) -> Self {
+    /// A patch without weights, from its net, u-major, of which no more than points and derivatives are known: not its box,
+    /// nor what it is thin across.
+    pub(super) fn bare(rows: usize, net: Net, u: [f64; 2], v: [f64; 2]) -> Self {
         Self {
             rows,
             columns: net.len() / rows,
-            rational,
-            bounds: Bounds::of(points(&net, rational)),
+            rational: false,
+            bounds: Bounds::EMPTY,
             net,
             u,
             v,
@@ -79,8 +79,9 @@ impl Patch {
         }
     }
 
-    /// The same with what it is thin across.
+    /// The same with its box and what it is thin across.
     pub(super) fn measured(mut self) -> Self {
+        self.bounds = Bounds::of(points(&self.net, self.rational));
         self.measure();
         self
     }

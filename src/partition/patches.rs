@@ -5,11 +5,11 @@
 
 use std::borrow::Cow;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
-use super::patch::Patch;
+use super::patch::{self, Patch};
 use crate::nurbs::Surface;
 
 /// Height fields with more patches than this are not kept as patches.
@@ -101,7 +101,7 @@ impl Patches {
     pub(super) fn bounds(&self, at: usize) -> Bounds {
         match self {
             Self::Kept(patches, _) => patches[at].bounds,
-            Self::Made(heights) => heights.patch(at).bounds,
+            Self::Made(heights) => heights.patch(at).measured().bounds,
         }
     }
 }
@@ -134,18 +134,18 @@ impl Heights {
         let columns = self.knots[1].len() - 1;
         let place = [at / columns, at % columns];
         let [i, j] = [0, 1].map(|axis| place[axis] * self.degrees[axis]);
-        let row = |a: usize| {
-            (j..=j + self.degrees[1])
-                .map(move |b| DVec3::new(self.x[a], self.y[b], self.z[a * self.y.len() + b]))
+        let mut net = patch::Net::new();
+        for a in i..=i + self.degrees[0] {
+            let first = a * self.y.len() + j;
+            let heights = &self.z[first..=first + self.degrees[1]];
+            let row = self.y[j..].iter().zip(heights);
+            net.extend(row.map(|(y, z)| DVec4::new(self.x[a], *y, *z, 1.0)));
+        }
+        let range = |axis: usize| {
+            let own = &self.knots[axis][place[axis]..];
+            [own[0], own[1]]
         };
-        let net: Net = (i..=i + self.degrees[0]).flat_map(row).collect();
-        let [u, v] = [0, 1].map(|axis| {
-            [
-                self.knots[axis][place[axis]],
-                self.knots[axis][place[axis] + 1],
-            ]
-        });
-        Patch::polynomial(self.degrees[0] + 1, &net, u, v)
+        Patch::bare(self.degrees[0] + 1, net, range(0), range(1))
     }
 }
 
