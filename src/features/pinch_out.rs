@@ -76,17 +76,33 @@ impl Nodes {
     /// A function where it is above 0, and about 0 elsewhere: through ever finer nodes that hold these, as many as are not too
     /// many, so that it swings the less where the function crosses 0. `None` if these are too many already.
     pub fn clamped(&self, function: &Horizon) -> Result<Option<Horizon>, HorizonError> {
-        let finer = |times: usize| Self {
-            counts: self.counts.map(|count| (count - 1) * times + 1),
-            ..*self
-        };
-        let fits = |times: &usize| finer(*times).counts.iter().product::<usize>() <= MOST_NODES;
+        let fits =
+            |times: &usize| self.finer(*times).counts.iter().product::<usize>() <= MOST_NODES;
         let Some(times) = FINER.into_iter().find(fits) else {
             return Ok(None);
         };
-        let nodes = finer(times);
+        let nodes = self.finer(times);
         let values = nodes.sample(|at| function.height(at.x, at.y).max(0.0));
         nodes.interpolated(&values).map(Some)
+    }
+
+    /// By how much a clamped function is off where the function is above 0, or about 0.
+    pub fn swing(&self, clamped: &Horizon, function: &Horizon) -> f64 {
+        let fits =
+            |times: &usize| self.finer(*times).counts.iter().product::<usize>() <= MOST_NODES;
+        let times = FINER.into_iter().find(fits).unwrap_or(1);
+        // Twice as fine: in the middle between the nodes of the one that is clamped.
+        let off = self
+            .finer(2 * times)
+            .sample(|at| clamped.height(at.x, at.y) - function.height(at.x, at.y).max(0.0));
+        off.iter().fold(0.0, |most, off| most.max(off.abs()))
+    }
+
+    fn finer(&self, times: usize) -> Self {
+        Self {
+            counts: self.counts.map(|count| (count - 1) * times + 1),
+            ..*self
+        }
     }
 
     /// The function with these values at the nodes.
@@ -204,15 +220,15 @@ impl Absence {
         }
     }
 
-    /// The thicknesses, continued below 0 where there is nothing; by no less than `least` if there is nothing anywhere.
-    pub fn continued(&self, thickness: &[f64], least: f64) -> Vec<f64> {
+    /// The thicknesses, continued below 0 where there is nothing, by no less than a depth.
+    pub fn continued(&self, thickness: &[f64], depth: f64) -> Vec<f64> {
         let mut values = thickness.to_vec();
         let mut is_known: Vec<bool> = self.is_absent.iter().map(|absent| !absent).collect();
         let mut left: Vec<usize> = (0..values.len()).filter(|at| !is_known[*at]).collect();
         for ring in 1.. {
             let found: Vec<(usize, f64)> = left
                 .iter()
-                .filter_map(|at| Some((*at, self.next(*at, &values, &is_known, ring)?)))
+                .filter_map(|at| Some((*at, self.next(*at, &values, &is_known, ring)?.min(-depth))))
                 .collect();
             if found.is_empty() {
                 break;
@@ -224,7 +240,7 @@ impl Absence {
             left.retain(|at| !is_known[*at]);
         }
         for at in left {
-            values[at] = -least;
+            values[at] = -depth;
         }
         values
     }

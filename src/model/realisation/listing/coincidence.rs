@@ -13,17 +13,22 @@
 //!
 //! The domain's top cuts likewise, and horizons go on below its base.
 
+mod bed;
+mod told;
+
 use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
+
+use bed::{Bed, bound_nodes, nodes};
 
 use crate::features::horizon::{Horizon, HorizonError};
-use crate::features::pinch_out::{self, Absence, Nodes};
+use crate::features::pinch_out::{Absence, Nodes};
 use crate::model::realisation::RealisationError;
 use crate::model::selection::Selection;
-use crate::model::spec::{Feature, FeatureKind, HorizonSurface, Model};
+use crate::model::spec::{FeatureKind, HorizonSurface, Model};
 use crate::nurbs::Lattice;
 
 /// Heights are equal within this fraction of the domain's diagonal, whatever the least thickness: what rounding leaves.
@@ -53,6 +58,7 @@ impl Strata {
         let least = model.domain.least_thickness.max(ROUNDING * diagonal(model));
         let mut given: BTreeMap<usize, Horizon> = BTreeMap::new();
         let mut beds: BTreeMap<usize, Bed> = BTreeMap::new();
+        let mut swings: BTreeMap<usize, f64> = BTreeMap::new();
         for (feature, horizon) in drawn {
             let id = &model.features[feature].id;
             let own = match surface(model, feature) {
@@ -60,12 +66,14 @@ impl Strata {
                     horizon: below,
                     thickness,
                 }) => {
-                    let bed = Bed::of(horizon, thickness, least);
+                    let swing = swings.get(below).copied().unwrap_or(0.0);
+                    let bed = Bed::of(horizon, thickness, [least, least.max(2.0 * swing)]);
                     let bed = bed.map_err(|error| impossible(id, &error))?;
                     let reference = &bed.reference;
                     let own = given
                         .get(below)
                         .map_or_else(|| reference.clone(), |below| below.plus(reference));
+                    swings.insert(feature, swing + bed.swing);
                     beds.insert(feature, bed);
                     own
                 }
@@ -90,6 +98,7 @@ impl Strata {
                 sheet: given[&feature].clone(),
                 nodes: nodes(&spec.surface, &model.features),
                 is_onlapping: spec.onlapping,
+                swing: swings.get(&feature).copied().unwrap_or(0.0),
                 above: None,
             });
         }
@@ -99,6 +108,7 @@ impl Strata {
             sheet: bounds[1].clone(),
             nodes: top,
             is_onlapping: false,
+            swing: 0.0,
             above: None,
         });
         let mut decided = Deciding {
@@ -165,74 +175,6 @@ fn surface(model: &Model, feature: usize) -> Option<&HorizonSurface> {
     }
 }
 
-/// The nodes at which a surface's heights are data.
-fn nodes(surface: &HorizonSurface, features: &[Feature]) -> Option<Nodes> {
-    match surface {
-        HorizonSurface::Grid { x, y, heights } => Some(Nodes {
-            low: DVec2::new(x[0], y[0]),
-            high: DVec2::new(x[1], y[1]),
-            counts: [heights.first()?.len(), heights.len()],
-        }),
-        HorizonSurface::Above { horizon, thickness } => {
-            nodes(thickness, features).or_else(|| match &features[*horizon].kind {
-                FeatureKind::Horizon(below) => nodes(&below.surface, features),
-                _ => None,
-            })
-        }
-        HorizonSurface::Level(_)
-        | HorizonSurface::Dipping { .. }
-        | HorizonSurface::Points { .. } => None,
-    }
-}
-
-fn bound_nodes(surface: Option<&HorizonSurface>) -> Option<Nodes> {
-    surface.and_then(|surface| nodes(surface, &[]))
-}
-
-/// The thickness of a bed over the plan.
-struct Bed {
-    /// What the horizon above it lies above the one below it, for whatever refers to it.
-    reference: Horizon,
-    /// The same, going on below 0 where there is nothing.
-    continued: Horizon,
-    /// The nodes of its grid, the thicknesses there, and where they are nothing.
-    none: Option<(Nodes, Vec<f64>, Absence)>,
-}
-
-impl Bed {
-    fn of(drawn: Horizon, spec: &HorizonSurface, least: f64) -> Result<Self, HorizonError> {
-        match (spec, nodes(spec, &[])) {
-            (HorizonSurface::Points { points, tolerance }, _) => Ok(Self {
-                continued: pinch_out::continued_points(points, *tolerance, least, &drawn)?,
-                reference: drawn,
-                none: None,
-            }),
-            (_, Some(nodes)) => {
-                let thickness = nodes.sample(|at| drawn.height(at.x, at.y));
-                let absence = Absence::at_nodes(&thickness, nodes.counts, least);
-                if absence.is_empty() || absence.is_all() {
-                    return Ok(Self::everywhere(drawn));
-                }
-                let continued = nodes.interpolated(&absence.continued(&thickness, least))?;
-                Ok(Self {
-                    reference: nodes.clamped(&continued)?.unwrap_or(drawn),
-                    continued,
-                    none: Some((nodes, thickness, absence)),
-                })
-            }
-            _ => Ok(Self::everywhere(drawn)),
-        }
-    }
-
-    fn everywhere(drawn: Horizon) -> Self {
-        Self {
-            reference: drawn.clone(),
-            continued: drawn,
-            none: None,
-        }
-    }
-}
-
 /// A horizon that takes part, or the domain's top.
 struct Layer {
     name: String,
@@ -242,6 +184,8 @@ struct Layer {
     sheet: Horizon,
     nodes: Option<Nodes>,
     is_onlapping: bool,
+    /// By how much its given heights may be off those that it is built with, where it shows (m).
+    swing: f64,
     /// The layer that it lies nowhere below.
     above: Option<usize>,
 }
@@ -412,13 +356,30 @@ impl Deciding<'_> {
             absence,
             ..
         } = contact;
-        let continued = nodes.interpolated(&absence.continued(thickness, self.least))?;
-        self.layers[at].sheet = self.layers[at - 1].given.plus(&continued);
+        let depth = self.depth([at - 1, at]);
+        let continued = nodes.interpolated(&absence.continued(thickness, depth))?;
+        let reference = match nodes.clamped(&continued)? {
+            Some(clamped) => clamped,
+            None => nodes.interpolated(thickness)?,
+        };
+        let swing = nodes.swing(&reference, &continued);
+        let below = &self.layers[at - 1];
+        let (sheet, given) = (below.given.plus(&continued), below.given.plus(&reference));
+        self.layers[at].swing = below.swing + swing;
+        self.layers[at].sheet = sheet;
+        // What lies above it is told from where it is built.
+        self.layers[at].given = given;
         if !self.layers[at].is_onlapping {
             self.layers[at].above = Some(at - 1);
         }
         self.tell(at - 1, at, nodes, thickness, absence, at - 1);
         Ok(())
+    }
+
+    /// How deep a layer lies at least behind another one where it is absent, so that no swing brings it back.
+    fn depth(&self, layers: [usize; 2]) -> f64 {
+        let swings = layers.map(|at| self.layers[at].swing);
+        self.least.max(2.0 * (swings[0] + swings[1]))
     }
 
     /// How a layer goes on above those that cut it.
@@ -465,7 +426,7 @@ impl Deciding<'_> {
             other = closest[k];
         }
         // What more lies between is raised less, so that nothing coincides above either.
-        let mut values = absence.continued(&thickness, self.least);
+        let mut values = absence.continued(&thickness, self.depth([at, other]));
         let sheet = &self.layers[at].sheet;
         for (k, value) in values.iter_mut().enumerate() {
             let between = (closest[k] - at - 1) as f64;
@@ -510,54 +471,6 @@ impl Deciding<'_> {
         }
         changes
     }
-
-    /// Says where the bed between two layers is absent, and whose surface is there.
-    fn tell(
-        &mut self,
-        older: usize,
-        younger: usize,
-        nodes: &Nodes,
-        thickness: &[f64],
-        absence: &Absence,
-        stays: usize,
-    ) {
-        let words = |name: &str, other: &str, stays: &str| {
-            format!(
-                "the bed between {name} and {other} is absent, and the surface of {stays} stays,"
-            )
-        };
-        let name = |at: usize| self.layers[at].name.as_str();
-        let words = words(name(older), name(younger), name(stays));
-        self.tell_extent(&words, nodes, thickness, absence);
-    }
-
-    fn tell_of_base(&mut self, at: usize, change: &Change) {
-        let words = format!(
-            "what lies between the domain's base and {} is absent",
-            self.layers[at].name
-        );
-        self.tell_extent(&words, &change.nodes, &change.thickness, &change.absence);
-    }
-
-    fn tell_extent(&mut self, words: &str, nodes: &Nodes, thickness: &[f64], absence: &Absence) {
-        let [x, y] = [self.model.domain.x, self.model.domain.y];
-        let plan = [0, 1].map(|i| DVec2::new(x[i], y[i]));
-        let extent = absence.extent(nodes, thickness, plan);
-        if !(extent.area > 0.0) {
-            return;
-        }
-        self.decisions.push(format!(
-            "{words} over {:.0} m² within x from {} to {}, y from {} to {}, where the data have a thickness of no more than \
-             {:.2e} m, {:.3} m³ in all",
-            extent.area,
-            tidy(extent.low.x),
-            tidy(extent.high.x),
-            tidy(extent.low.y),
-            tidy(extent.high.y),
-            self.least,
-            extent.volume
-        ));
-    }
 }
 
 /// How a layer goes on where it is absent.
@@ -580,9 +493,4 @@ fn are_alike(one: &Horizon, other: &Horizon) -> bool {
 
 fn minus(one: &[f64], other: &[f64]) -> Vec<f64> {
     one.iter().zip(other).map(|(a, b)| a - b).collect()
-}
-
-/// To a centimetre, and without a negative zero.
-fn tidy(coordinate: f64) -> f64 {
-    (coordinate * 1e2).round() / 1e2 + 0.0
 }
