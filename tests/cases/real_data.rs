@@ -108,10 +108,21 @@ fn layers_of_real_horizons_have_no_thickness_where_the_data_have_none() {
     ];
     let whole: f64 = right.iter().map(|one| one.1).sum();
     for (name, size) in right {
-        // Splines through thicknesses of zero swing by decimetres between the nodes; beds are tens of metres thick.
+        // Where a thickness is nothing, splines of these heights cross each other again and again: by so little in all.
         let miss = (report.size(name) - size) / whole;
-        assert!(miss.abs() < 5e-3, "{name} misses {miss} of the whole");
+        assert!(miss.abs() < 3e-5, "{name} misses {miss} of the whole");
     }
+}
+
+#[test]
+fn noise_of_exported_horizons_makes_no_beds_below_the_least_thickness() {
+    let noisy = text("real-data", "drogon-zero-thickness");
+    let report = Report::of(&noisy, &["--set", "domain.least_thickness=0.1"]);
+    // Where the lowest layer ends the data differ by 2 to 8 cm; with these it has islands.
+    assert_eq!(report.pieces("background"), 1);
+    assert!(report.pieces("therys") < 10);
+    let words = "what lies between the domain's base and therys is absent";
+    assert!(report.decides(words, "no more than 1.00e-1 m"));
 }
 
 #[test]
