@@ -172,7 +172,9 @@ impl Absence {
                 let cell = [first, first + 1, first + ny, first + ny + 1];
                 if cell.iter().all(|entry| is_nothing[*entry]) {
                     reached.extend(cell.iter().filter(|entry| !is_absent[**entry]));
-                    cell.iter().for_each(|entry| is_absent[*entry] = true);
+                    for entry in cell {
+                        is_absent[entry] = true;
+                    }
                 }
             }
         }
@@ -252,6 +254,7 @@ impl Absence {
             slower *= 0.5;
         }
         let mut thickest: f64 = 0.0;
+        let mut steepest = f64::INFINITY;
         let mut sloping = Mean::default();
         let mut level = Mean::default();
         for (near, step) in around(entry, self.counts).filter(|(near, _)| is_known[*near]) {
@@ -259,10 +262,16 @@ impl Absence {
             level.add(values[near]);
             if let Some(far) = beside(near, step, self.counts).filter(|far| is_known[*far]) {
                 let fall = (values[far] - values[near]).max(0.0);
-                sloping.add(values[near] - slower * fall);
+                let continued = values[near] - slower * fall;
+                steepest = steepest.min(continued);
+                sloping.add(continued);
             }
         }
-        let mean = sloping.value().or_else(|| level.value())?;
+        let mut mean = sloping.value().or_else(|| level.value())?;
+        if ring == 2 {
+            // Behind the line it falls as steeply as before it, or it would run along 0.
+            mean = mean.min(steepest);
+        }
         Some(mean.min(-BELOW * thickest))
     }
 

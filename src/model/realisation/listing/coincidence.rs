@@ -396,10 +396,8 @@ impl Deciding<'_> {
             .filter(|younger| !self.layers[*younger].is_onlapping)
             .collect();
         let own_nodes = self.layers[at].nodes;
-        let nodes = cutting
-            .iter()
-            .filter_map(|younger| self.layers[*younger].nodes)
-            .next();
+        let mut younger = cutting.iter();
+        let nodes = younger.find_map(|younger| self.layers[*younger].nodes);
         let nodes = own_nodes.or(nodes)?;
         let own = self.sample(at, &nodes);
         let mut thickness = vec![f64::INFINITY; own.len()];
