@@ -14,8 +14,9 @@ fn model(domain: &str, horizons: &[(&str, &str)]) -> String {
         "name = \"isochores\"\n[domain]\nx = [0, 1000]\ny = [0, 800]\nz = [-100, 0]\nfacies = \"rock\"\n{domain}\n[facies.rock]\n"
     );
     for (id, rest) in horizons {
-        text +=
-            &format!("[[feature]]\nid = \"{id}\"\nkind = \"horizon\"\nfacies = \"rock\"\n{rest}\n");
+        let own =
+            format!("[[feature]]\nid = \"{id}\"\nkind = \"horizon\"\nfacies = \"rock\"\n{rest}\n");
+        text.push_str(&own);
     }
     text
 }
