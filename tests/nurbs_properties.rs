@@ -213,7 +213,7 @@ proptest! {
         let (left, right) = surface.split_v(v).unwrap();
         let turned = (surface.transposed(), surface.reversed_u(), surface.reversed_v());
         let (du, dv) = (surface.knots_u().domain(), surface.knots_v().domain());
-        let patches = surface.bezier_patches();
+        let patches: Vec<_> = surface.bezier_patches().collect();
         for x in parameters(surface.knots_u()) {
             for y in parameters(surface.knots_v()) {
                 let p = surface.point(x, y);

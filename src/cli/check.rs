@@ -279,6 +279,8 @@ fn described(surface: &HorizonSurface) -> String {
         HorizonSurface::Points { points, tolerance } => {
             format!("within {tolerance} m of {} points", points.len())
         }
+        // Not of the domain's base or top.
+        HorizonSurface::Above { .. } => "as thick above another horizon as given".to_owned(),
     }
 }
 

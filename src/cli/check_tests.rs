@@ -15,6 +15,7 @@ fn volume(name: &str, feature: &str, kind: &str) -> VolumeRules {
         removed_by: Selector::Everything,
         preserve: false,
         from: None,
+        above: None,
     }
 }
 

@@ -27,8 +27,11 @@ const AREA: f64 = 1e-9;
 const QUARTERINGS: u32 = 10;
 /// Samples along each side of the plan when base and top are compared.
 const SAMPLES: usize = 129;
-/// Parts that spans are cut into where the range of a sheet's height is bounded by its control points.
-const PARTS: u32 = 8;
+/// Parts that spans are cut into where the range of a sheet's height is bounded by its control points; fewer where there are
+/// more spans than [`SPANS`] over that: their control points are near the sheet by themselves.
+const PARTS: usize = 8;
+/// Parts along a side that are enough.
+const SPANS: usize = 512;
 /// Why a base and a top bound no domain.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtentError {
@@ -231,7 +234,8 @@ fn within(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Surface, RefineErr
 fn range(sheet: &Surface, low: DVec2, high: DVec2) -> Result<(f64, f64), RefineError> {
     let between = |knots: &KnotVector| -> Vec<f64> {
         let distinct = knots.distinct();
-        let parts = (1..PARTS).map(|part| f64::from(part) / f64::from(PARTS));
+        let count = (SPANS / (distinct.len() - 1)).clamp(1, PARTS);
+        let parts = (1..count).map(|part| part as f64 / count as f64);
         distinct
             .windows(2)
             .flat_map(|pair| {
@@ -255,8 +259,7 @@ fn range(sheet: &Surface, low: DVec2, high: DVec2) -> Result<(f64, f64), RefineE
 fn sheet_measures(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Measures, RefineError> {
     let inner = within(sheet, low, high)?;
     let mut all = Measures::default();
-    let patches = inner.bezier_patches();
-    for patch in &patches {
+    for patch in inner.bezier_patches() {
         let net = patch.net();
         let size = net[net.len() - 1].xy() - net[0].xy();
         let mean = |heights: &mut dyn Iterator<Item = f64>| {
@@ -265,7 +268,7 @@ fn sheet_measures(sheet: &Surface, low: DVec2, high: DVec2) -> Result<Measures, 
         };
         let plan = size.x * size.y;
         all.under += plan * mean(&mut net.iter().map(|p| p.z));
-        let [own, error] = area(patch);
+        let [own, error] = area(&patch);
         all.area += own;
         all.error += error;
         // Walls along the sides of patches that lie on the plan's.

@@ -2,7 +2,9 @@
 //!
 //! A horizon is level, a dipping plane, interpolated through a lattice of heights or fitted to scattered ones. The last
 //! two are twice continuously differentiable and continued by straight lines beyond their data. As a sheet, a horizon
-//! has x exactly linear in u and y in v.
+//! has x exactly linear in u and y in v. Sums of horizons are horizons: a thickness over the plan is one as well.
+
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
@@ -105,9 +107,9 @@ enum Shape {
         /// Rise per metre in x and y.
         slope: DVec2,
     },
-    /// Heights above a plane.
+    /// Heights above a plane: the sum of lattices, no two of which have the same nodes.
     Lattice {
-        lattice: Lattice,
+        lattices: Vec<Arc<Lattice>>,
         through: DVec3,
         slope: DVec2,
     },
@@ -153,13 +155,11 @@ impl Horizon {
         if let Some(level) = turned.first().filter(|z| turned.iter().all(|y| y == *z)) {
             return Self::flat(*level);
         }
-        Ok(Self {
-            shape: Shape::Lattice {
-                lattice,
-                through: DVec3::ZERO,
-                slope: DVec2::ZERO,
-            },
-        })
+        Ok(Self::above_plane(
+            vec![Arc::new(lattice)],
+            DVec3::ZERO,
+            DVec2::ZERO,
+        ))
     }
 
     /// The smoothest of a series of ever finer surfaces that is within a tolerance (m) of all points: their plane, if
@@ -188,12 +188,7 @@ impl Horizon {
             for smoothness in SMOOTHNESS {
                 let counts = counts(high - low, cells);
                 let lattice = Lattice::fitted(low, high, counts, &residuals, smoothness)?;
-                let shape = Shape::Lattice {
-                    lattice,
-                    through,
-                    slope,
-                };
-                let horizon = Self { shape };
+                let horizon = Self::above_plane(vec![Arc::new(lattice)], through, slope);
                 let worst = horizon.worst(points);
                 if worst.1 <= tolerance {
                     return Ok(horizon);
@@ -216,47 +211,47 @@ impl Horizon {
     /// The horizon lower by a distance (m).
     #[must_use]
     pub fn lowered(&self, by: f64) -> Self {
-        let shape = match &self.shape {
-            Shape::Level(level) => Shape::Level(level - by),
-            Shape::Plane { through, slope } => Shape::Plane {
-                through: *through - by * DVec3::Z,
-                slope: *slope,
-            },
-            Shape::Lattice {
-                lattice,
-                through,
-                slope,
-            } => Shape::Lattice {
-                lattice: lattice.clone(),
-                through: *through - by * DVec3::Z,
-                slope: *slope,
-            },
-        };
-        Self { shape }
+        let (through, slope) = self.trend();
+        Self::above_plane(self.lattices().to_vec(), through - by * DVec3::Z, slope)
+    }
+
+    /// The horizon higher by what another one tells for every place (m).
+    #[must_use]
+    pub fn plus(&self, more: &Self) -> Self {
+        let (through, slope) = self.trend();
+        let (other_through, other_slope) = more.trend();
+        let rise = other_through.z + other_slope.dot(through.xy() - other_through.xy());
+        let mut lattices = self.lattices().to_vec();
+        for lattice in more.lattices() {
+            let sum = lattices
+                .iter()
+                .enumerate()
+                .find_map(|(at, own)| Some((at, own.plus(lattice)?)));
+            match sum {
+                Some((at, sum)) => lattices[at] = Arc::new(sum),
+                None => lattices.push(Arc::clone(lattice)),
+            }
+        }
+        Self::above_plane(lattices, through + rise * DVec3::Z, slope + other_slope)
+    }
+
+    /// The lattices of which its heights above a plane are the sum.
+    pub fn lattices(&self) -> &[Arc<Lattice>] {
+        match &self.shape {
+            Shape::Lattice { lattices, .. } => lattices,
+            Shape::Level(_) | Shape::Plane { .. } => &[],
+        }
     }
 
     /// The horizon with all heights stretched from an elevation (m), by a fraction of their distance from it.
     #[must_use]
     pub fn stretched(&self, from: f64, by: f64) -> Self {
         let factor = 1.0 + by;
-        let moved = |z: f64| z + by * (z - from);
-        let shape = match &self.shape {
-            Shape::Level(level) => Shape::Level(moved(*level)),
-            Shape::Plane { through, slope } => Shape::Plane {
-                through: through.with_z(moved(through.z)),
-                slope: factor * *slope,
-            },
-            Shape::Lattice {
-                lattice,
-                through,
-                slope,
-            } => Shape::Lattice {
-                lattice: lattice.scaled(factor),
-                through: through.with_z(moved(through.z)),
-                slope: factor * *slope,
-            },
-        };
-        Self { shape }
+        let (through, slope) = self.trend();
+        let scaled = |lattice: &Arc<Lattice>| Arc::new(lattice.scaled(factor));
+        let lattices = self.lattices().iter().map(scaled).collect();
+        let through = through.with_z(through.z + by * (through.z - from));
+        Self::above_plane(lattices, through, factor * slope)
     }
 
     /// The height at a place (m).
@@ -267,10 +262,13 @@ impl Horizon {
             Shape::Level(level) => *level,
             Shape::Plane { through, slope } => on_plane(*through, *slope),
             Shape::Lattice {
-                lattice,
+                lattices,
                 through,
                 slope,
-            } => on_plane(*through, *slope) + lattice.value(at),
+            } => {
+                let above: f64 = lattices.iter().map(|lattice| lattice.value(at)).sum();
+                on_plane(*through, *slope) + above
+            }
         }
     }
 
@@ -314,13 +312,15 @@ impl Horizon {
         if !(low.is_finite() && high.is_finite() && high.cmpgt(low).all()) {
             return Err(HorizonError::Plan { low, high });
         }
-        let (u, v, heights) = if let Shape::Lattice { lattice, .. } = &self.shape {
-            lattice.part(low, high)?
-        } else {
+        let lattices: Vec<&Lattice> = self.lattices().iter().map(Arc::as_ref).collect();
+        let (u, v, heights) = if lattices.is_empty() {
             let knots = KnotVector::uniform(1, 2)?;
             (knots.clone(), knots, vec![0.0; 4])
+        } else {
+            Lattice::part(&lattices, low, high)?
         };
-        let plane = self.without_lattice();
+        let (through, slope) = self.trend();
+        let plane = Self::plane(through, slope);
         let nv = v.count();
         let mut net = Vec::with_capacity(heights.len());
         for (k, height) in heights.into_iter().enumerate() {
@@ -340,10 +340,25 @@ impl Horizon {
         Self { shape }
     }
 
-    fn without_lattice(&self) -> Self {
+    fn above_plane(lattices: Vec<Arc<Lattice>>, through: DVec3, slope: DVec2) -> Self {
+        if lattices.is_empty() {
+            return Self::plane(through, slope);
+        }
+        let shape = Shape::Lattice {
+            lattices,
+            through,
+            slope,
+        };
+        Self { shape }
+    }
+
+    /// The plane below the lattices: a point of it, and its rise per metre in x and y.
+    fn trend(&self) -> (DVec3, DVec2) {
         match &self.shape {
-            Shape::Lattice { through, slope, .. } => Self::plane(*through, *slope),
-            _ => self.clone(),
+            Shape::Level(level) => (DVec3::new(0.0, 0.0, *level), DVec2::ZERO),
+            Shape::Plane { through, slope } | Shape::Lattice { through, slope, .. } => {
+                (*through, *slope)
+            }
         }
     }
 

@@ -12,6 +12,10 @@ use crate::nurbs::Surface;
 
 /// What lies on the younger side of open sheets.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a model has one for each sheet, behind an `Arc`"
+)]
 pub enum Side {
     /// Above a horizon.
     Horizon(HorizonSheet),

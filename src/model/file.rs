@@ -62,6 +62,9 @@ pub(crate) struct DomainFile {
     /// A top within `z`: above it the model has nothing.
     #[schemars(with = "Option<HorizonSurface>")]
     pub(crate) top: Option<Field<Any>>,
+    /// A bed thinner than this, in metres, at the nodes of its horizons' grids is absent there; a ten-millionth of the domain's diagonal if left out.
+    #[schemars(range(min = 0))]
+    pub(crate) least_thickness: Option<Field<f64>>,
     /// The facies of the background.
     pub(crate) facies: Field<String>,
 }
@@ -177,7 +180,7 @@ pub(crate) struct EllipsoidFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct HorizonFile {
     /// Where it runs.
-    #[schemars(with = "HorizonSurface")]
+    #[schemars(schema_with = "schema::horizon_surface")]
     pub(crate) surface: Field<Any>,
     /// "erosive" (the default): its unit takes everything above the surface; "onlapping": only what the unit below and its children hold.
     #[schemars(schema_with = "schema::relation")]
@@ -242,11 +245,21 @@ pub(crate) struct BeltFile {
     pub(crate) interfingering: Option<Field<Any>>,
 }
 
-/// The table of a surface: one of `level`, `dipping`, `grid`, `points`.
+/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, or `above` with `thickness`.
 #[derive(Deserialize)]
 pub(crate) struct SurfaceFile {
+    pub(crate) above: Option<Field<String>>,
+    pub(crate) thickness: Option<Field<Any>>,
     pub(crate) level: Option<Field<Any>>,
     pub(crate) dipping: Option<Field<Any>>,
+    pub(crate) grid: Option<Field<Any>>,
+    pub(crate) points: Option<Field<Any>>,
+    pub(crate) tolerance: Option<Field<f64>>,
+}
+
+/// The table of a thickness: one of `grid`, `points`.
+#[derive(Deserialize)]
+pub(crate) struct ThicknessFile {
     pub(crate) grid: Option<Field<Any>>,
     pub(crate) points: Option<Field<Any>>,
     pub(crate) tolerance: Option<Field<f64>>,

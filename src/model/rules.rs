@@ -12,6 +12,9 @@
 //! Horizons, clinoforms and facies boundaries are asked like bodies; their inside is the side that they
 //! hold. What they divide off is said by `from`: such a volume takes the place only from that holder or
 //! what descends from it. Dividing is not removing, so the `removed_by` of that one holder is not asked.
+//!
+//! A horizon given by its thickness above another one lies nowhere below that one, whatever its surface does where the
+//! thickness is none: such a volume holds a place only where what it lies `above` does, too.
 
 mod meeting;
 
@@ -45,6 +48,8 @@ pub struct VolumeRules {
     pub preserve: bool,
     /// The older volume that it divides: it takes only from this one and what descends from it.
     pub from: Option<usize>,
+    /// The older volume that it lies above: it takes only what lies within this one's body, too.
+    pub above: Option<usize>,
 }
 
 /// All volumes' rules, resolved: volume 0 is the background, then in order of evaluation.
@@ -53,12 +58,15 @@ pub struct Rules {
     volumes: Vec<Resolved>,
     /// By volume: the younger ones that take from it a place that it holds.
     takers: Vec<Vec<Run>>,
+    /// By volume: the younger ones that lie above it, or above what lies above it.
+    upon: Vec<Vec<usize>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Resolved {
     parent: Option<usize>,
     from: Option<usize>,
+    above: Option<usize>,
     preserve: bool,
     removes: Chosen,
     removed_by: Chosen,
@@ -156,6 +164,7 @@ impl Rules {
         let resolve = |volume: &VolumeRules| Resolved {
             parent: volume.parent,
             from: volume.from,
+            above: volume.above,
             preserve: volume.preserve,
             removes: Chosen::resolve(&volume.removes, volumes),
             removed_by: Chosen::resolve(&volume.removed_by, volumes),
@@ -164,7 +173,15 @@ impl Rules {
         let mut rules = Self {
             volumes: volumes.iter().map(resolve).collect(),
             takers: Vec::new(),
+            upon: vec![Vec::new(); volumes.len()],
         };
+        for volume in 0..volumes.len() {
+            let mut at = rules.volumes[volume].above;
+            while let Some(below) = at {
+                rules.upon[below].push(volume);
+                at = rules.volumes[below].above;
+            }
+        }
         let takers = |holder: usize| {
             let younger = holder + 1..rules.len();
             runs(younger.filter(|body| rules.verdict(*body, holder) == Verdict::Takes))
@@ -206,14 +223,14 @@ impl Rules {
     }
 
     /// The volume that holds a place in the end; `inside(volume)` tells whether the place is inside that body's shell.
-    /// It is asked only of bodies that would take the place.
+    /// It is asked only of bodies that would take the place, and of what they lie above.
     pub fn owner(&self, mut inside: impl FnMut(usize) -> bool) -> usize {
         let mut holder = BACKGROUND;
         let mut next = |holder: usize| {
             let takers = self.takers[holder].iter();
             takers
                 .flat_map(|(first, last)| *first..=*last)
-                .find(|body| inside(*body))
+                .find(|body| self.holds(*body, &mut inside))
         };
         while let Some(taker) = next(holder) {
             holder = taker;
@@ -225,7 +242,10 @@ impl Rules {
     pub fn history(&self, mut inside: impl FnMut(usize) -> bool) -> Vec<(usize, Verdict)> {
         let mut holder = BACKGROUND;
         let mut steps = Vec::new();
-        for body in (1..self.volumes.len()).filter(|&body| inside(body)) {
+        for body in 1..self.volumes.len() {
+            if !self.holds(body, &mut inside) {
+                continue;
+            }
             let verdict = self.verdict(body, holder);
             if verdict == Verdict::Takes {
                 holder = body;
@@ -233,6 +253,23 @@ impl Rules {
             steps.push((body, verdict));
         }
         steps
+    }
+
+    /// Whether a place lies within a body, and within all that it lies above.
+    fn holds(&self, body: usize, inside: &mut impl FnMut(usize) -> bool) -> bool {
+        let mut at = Some(body);
+        while let Some(body) = at {
+            if !inside(body) {
+                return false;
+            }
+            at = self.volumes[body].above;
+        }
+        true
+    }
+
+    /// A volume, and those that lie above it: whatever else a place is in, they do not hold it outside of this one's body.
+    fn resting(&self, volume: usize) -> impl Iterator<Item = usize> {
+        std::iter::once(volume).chain(self.upon[volume].iter().copied())
     }
 
     fn descends(&self, volume: usize, ancestor: usize) -> bool {

@@ -16,6 +16,7 @@ fn body(name: &str) -> VolumeRules {
         removed_by: Selector::Everything,
         preserve: false,
         from: None,
+        above: None,
     }
 }
 
@@ -63,6 +64,29 @@ fn by_default_the_youngest_body_takes_everything() {
             (&["b"], "b"),
             (&["a", "b"], "b"),
             (&["a", "c"], "c"),
+            (&["a", "b", "c"], "c"),
+        ],
+    );
+}
+
+#[test]
+fn what_lies_above_another_one_holds_nothing_outside_of_that_one() {
+    let b = VolumeRules {
+        above: Some(1),
+        ..body("b")
+    };
+    let c = VolumeRules {
+        above: Some(2),
+        ..body("c")
+    };
+    check(
+        vec![body("a"), b, c],
+        &[
+            (&["b"], "background"),
+            (&["c"], "background"),
+            (&["b", "c"], "background"),
+            (&["a", "c"], "a"),
+            (&["a", "b"], "b"),
             (&["a", "b", "c"], "c"),
         ],
     );

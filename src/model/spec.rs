@@ -42,11 +42,16 @@ pub struct Domain {
     pub base: Option<HorizonSurface>,
     /// A top below the block's own: above it the model has nothing.
     pub top: Option<HorizonSurface>,
+    /// A bed thinner than this at the nodes of its horizons' grids is absent there.
+    pub least_thickness: f64,
     /// Index of the background's facies.
     pub facies: usize,
 }
 
 impl Domain {
+    /// [`Self::least_thickness`] if none is given, as a fraction of the domain's diagonal: far below any geology.
+    pub const LEAST_THICKNESS: f64 = 1e-7;
+
     /// Extents in x, y and z.
     pub fn size(&self) -> [f64; 3] {
         [self.x, self.y, self.z].map(|[lo, hi]| hi - lo)
@@ -245,6 +250,13 @@ pub enum HorizonSurface {
         points: Vec<[f64; 3]>,
         /// How far from a point the surface may pass, vertically.
         tolerance: f64,
+    },
+    /// As high above another horizon as a thickness says.
+    Above {
+        /// Index of the feature that is the other horizon; an older one.
+        horizon: usize,
+        /// The thickness over the plan: level, a grid or points, none of them below 0.
+        thickness: Box<HorizonSurface>,
     },
 }
 

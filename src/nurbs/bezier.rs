@@ -133,7 +133,7 @@ impl Patch {
 
     /// The Bézier patches of a surface, with their parameters.
     pub(super) fn of_surface(surface: &Surface) -> Vec<(Self, Region)> {
-        let patch = |piece: &Surface| {
+        let patch = |piece: Surface| {
             let (u, v) = (piece.knots_u(), piece.knots_v());
             let net = piece.homogeneous();
             let patch = Self {
@@ -150,7 +150,7 @@ impl Patch {
                 },
             )
         };
-        surface.bezier_patches().iter().map(patch).collect()
+        surface.bezier_patches().map(patch).collect()
     }
 
     /// The patch after a change of coordinates: `(w x, w)` becomes `(w change(x), w)` for a linear or affine change.

@@ -199,31 +199,64 @@ impl Lattice {
         sum
     }
 
-    /// The part over a box in plan as a spline function of two parameters, which are fractions of the box's sides:
-    /// knots along x and y, coefficients x-major.
+    /// The first and the last node.
+    pub fn corners(&self) -> (DVec2, DVec2) {
+        (self.low, self.high)
+    }
+
+    /// The number of nodes along x and along y.
+    pub fn counts(&self) -> [usize; 2] {
+        self.counts
+    }
+
+    /// The sum with another one on the same nodes; `None` if its nodes are others.
+    pub fn plus(&self, other: &Self) -> Option<Self> {
+        let same = self.low == other.low && self.high == other.high && self.counts == other.counts;
+        let sum = |(a, b): (&f64, &f64)| a + b;
+        same.then(|| Self {
+            coefficients: self
+                .coefficients
+                .iter()
+                .zip(&other.coefficients)
+                .map(sum)
+                .collect(),
+            ..*self
+        })
+    }
+
+    /// The part of a sum of lattices over a box in plan as a spline function of two parameters, which are fractions of the
+    /// box's sides: knots along x and y, coefficients x-major.
     pub fn part(
-        &self,
+        sum: &[&Self],
         low: DVec2,
         high: DVec2,
     ) -> Result<(KnotVector, KnotVector, Vec<f64>), InterpolateError> {
-        let (u, v) = (self.knots(0, low.x, high.x)?, self.knots(1, low.y, high.y)?);
+        let u = Self::knots(sum, 0, low.x, high.x)?;
+        let v = Self::knots(sum, 1, low.y, high.y)?;
         let heights = interpolate::net(&u, &v, |u, v| {
-            self.value(low + (high - low) * DVec2::new(u, v))
+            let at = low + (high - low) * DVec2::new(u, v);
+            sum.iter().map(|one| one.value(at)).sum()
         })?;
         Ok((u, v, heights))
     }
 
-    /// Knots from 0 to 1 at the nodes between two coordinates; degree 1 where there are only two nodes.
-    fn knots(&self, axis: usize, from: f64, to: f64) -> Result<KnotVector, KnotError> {
-        // A node this near an end is left out: the function is smooth enough not to show it.
+    /// Knots from 0 to 1 at the nodes between two coordinates; degree 1 where no lattice has more than two nodes.
+    fn knots(sum: &[&Self], axis: usize, from: f64, to: f64) -> Result<KnotVector, KnotError> {
+        // A node this near an end, or another lattice's, is left out: the function is smooth enough not to show it.
         const NEAR: f64 = 1e-6;
-        let count = self.counts[axis];
-        let degree = if count == 2 { 1 } else { 3 };
+        let bent = || sum.iter().filter(|one| one.counts[axis] > 2);
+        let degree = if bent().next().is_none() { 1 } else { 3 };
+        let mut nodes: Vec<f64> = bent()
+            .flat_map(|one| {
+                let (low, step) = (one.low[axis], one.step(axis));
+                (0..one.counts[axis])
+                    .map(move |node| (low + step * node as f64 - from) / (to - from))
+            })
+            .collect();
+        nodes.sort_by(f64::total_cmp);
         let mut knots = vec![0.0; degree + 1];
-        let (low, step) = (self.low[axis], self.step(axis));
         let mut previous = 0.0;
-        for node in (0..count).filter(|_| count > 2) {
-            let at = (low + step * node as f64 - from) / (to - from);
+        for at in nodes {
             if at > previous + NEAR && at < 1.0 - NEAR {
                 knots.push(at);
                 previous = at;
@@ -394,7 +427,7 @@ mod tests {
         let high = LOW + DVec2::new(6.0, 4.0);
         let lattice = Lattice::interpolated(LOW, high, [7, 5], &heights).unwrap();
         let (from, to) = (LOW - DVec2::new(3.0, -1.3), high + DVec2::new(-2.4, 5.0));
-        let (u, v, net) = lattice.part(from, to).unwrap();
+        let (u, v, net) = Lattice::part(&[&lattice], from, to).unwrap();
         let nv = v.count();
         for (a, b) in [
             (0.0, 0.0),
@@ -412,6 +445,32 @@ mod tests {
             }
             let exact = lattice.value(from + (to - from) * DVec2::new(a, b));
             assert!((sum - exact).abs() < 1e-12, "{a} {b}: {sum} {exact}");
+        }
+    }
+
+    #[test]
+    fn a_sum_of_lattices_is_the_sum_of_their_functions_on_the_nodes_of_both() {
+        let wave = |count: i32, rate: f64| -> Vec<f64> {
+            (0..count).map(|k| (f64::from(k) * rate).sin()).collect()
+        };
+        let high = LOW + DVec2::new(6.0, 4.0);
+        let one = Lattice::interpolated(LOW, high, [7, 5], &wave(35, 1.7)).unwrap();
+        let other = Lattice::interpolated(LOW, high, [4, 2], &wave(8, 0.9)).unwrap();
+        assert!(one.plus(&other).is_none());
+        let twice = one.plus(&one).unwrap();
+        let (from, to) = (LOW - DVec2::new(1.0, 0.3), high + DVec2::new(0.4, 2.0));
+        let (u, v, net) = Lattice::part(&[&one, &other], from, to).unwrap();
+        let surface = crate::nurbs::Surface::new(
+            u,
+            v,
+            net.iter().map(|z| DVec3::new(0.0, 0.0, *z)).collect(),
+        )
+        .unwrap();
+        for (a, b) in [(0.0, 0.0), (0.2, 0.9), (0.35, 0.33), (0.78, 0.1)] {
+            let at = from + (to - from) * DVec2::new(a, b);
+            let sum = one.value(at) + other.value(at);
+            assert!((surface.point(a, b).z - sum).abs() < 1e-12, "{a} {b}");
+            assert!((twice.value(at) - 2.0 * one.value(at)).abs() < 1e-14);
         }
     }
 

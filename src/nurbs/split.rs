@@ -105,26 +105,17 @@ impl Surface {
     }
 
     /// The polynomial or rational pieces, u-major, each with its own part of the domain.
-    pub fn bezier_patches(&self) -> Vec<Self> {
-        let strips = |surface: &Self| -> Vec<Self> {
-            let refined = surface.refined_v(&surface.knots_v().missing_for_bezier());
-            let degree = refined.knots_v().degree();
-            let strip = |(k, knots): (usize, KnotVector)| {
-                refined.columns(knots, k * degree..(k + 1) * degree + 1)
-            };
-            refined
-                .knots_v()
-                .pieces()
-                .into_iter()
-                .enumerate()
-                .map(strip)
-                .collect()
-        };
-        let across = strips(&self.transposed());
-        across
-            .iter()
-            .flat_map(|strip| strips(&strip.transposed()))
-            .collect()
+    pub fn bezier_patches(&self) -> impl Iterator<Item = Self> + use<> {
+        self.bezier_strips().flat_map(|strip| strips(&strip))
+    }
+
+    /// The parts between neighbouring knots in u, in which every knot in v is as often there as the degree says: the nets of
+    /// the pieces are parts of theirs, and neighbours have their common points. One is made after the other.
+    pub fn bezier_strips(&self) -> impl Iterator<Item = Self> + use<> {
+        strips(&self.transposed()).map(|strip| {
+            let strip = strip.transposed();
+            strip.refined_v(&strip.knots_v().missing_for_bezier())
+        })
     }
 
     /// The surface of some columns of the net, with the knots that belong to them.
@@ -138,6 +129,14 @@ impl Surface {
             self.is_rational(),
         )
     }
+}
+
+/// The parts between neighbouring knots in v.
+fn strips(surface: &Surface) -> impl Iterator<Item = Surface> + use<> {
+    let refined = surface.refined_v(&surface.knots_v().missing_for_bezier());
+    let degree = refined.knots_v().degree();
+    let pieces = refined.knots_v().pieces().into_iter().enumerate();
+    pieces.map(move |(k, knots)| refined.columns(knots, k * degree..(k + 1) * degree + 1))
 }
 
 /// Some columns of a net with rows of a length.

@@ -17,7 +17,7 @@ pub(super) fn of_face(sheet: &Sheet, traced: &Face) -> Bounds {
             .iter()
             .fold(DVec2::NEG_INFINITY, |high, p| high.max(*p));
         for patch in sheet.patches() {
-            bounds = bounds.and(hull(patch, [low, high], HALVINGS));
+            bounds = bounds.and(hull(&patch, [low, high], HALVINGS));
         }
     }
     bounds

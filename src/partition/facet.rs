@@ -19,11 +19,8 @@ pub(super) struct Facet<'a> {
 
 impl<'a> Facet<'a> {
     /// A whole patch, whose normals are known.
-    pub(super) fn whole(patch: &'a Patch, normals: Option<(DVec3, f64)>) -> Self {
-        Self {
-            patch: Cow::Borrowed(patch),
-            normals,
-        }
+    pub(super) fn whole(patch: Cow<'a, Patch>, normals: Option<(DVec3, f64)>) -> Self {
+        Self { patch, normals }
     }
 
     /// The sine of the normals' greatest angle from their axis.

@@ -150,15 +150,15 @@ impl<'a> Heights<'a> {
 
     /// The height of one of them over a part of a patch in plan, or beyond it.
     pub(super) fn part(&self, side: usize, patch: usize, range: [[f64; 2]; 2]) -> Scalar {
-        let (orders, elevations) = self.sheets[side].patch(patch).elevations();
+        let own = self.sheets[side].patch(patch);
+        let (orders, elevations) = own.elevations();
         Scalar::new(orders, elevations, self.range(side, patch)).over(range)
     }
 
     /// What a patch covers in plan.
     fn range(&self, side: usize, patch: usize) -> [[f64; 2]; 2] {
-        let (plan, patch) = (&self.plans[side], self.sheets[side].patch(patch));
-        let corner = |at: usize| plan.place(DVec2::new(patch.u[at], patch.v[at]));
-        let (low, high) = (corner(0), corner(1));
+        let corners = self.sheets[side].range_of(patch);
+        let [low, high] = corners.map(|corner| self.plans[side].place(corner));
         [[low.x, high.x], [low.y, high.y]]
     }
 

@@ -36,6 +36,7 @@ mod landing;
 mod march;
 mod pair;
 mod patch;
+mod patches;
 mod pierce;
 mod polygon;
 mod quadrature;

@@ -24,7 +24,7 @@ pub(super) enum Along {
 }
 
 /// Homogeneous control points.
-type Net = SmallVec<[DVec4; 16]>;
+pub(super) type Net = SmallVec<[DVec4; 16]>;
 
 /// A Bézier patch over a rectangle of its surface's parameters.
 #[derive(Clone, Debug)]
@@ -56,19 +56,34 @@ impl Patch {
             .zip(weights)
             .map(|(p, w)| (*p * *w).extend(*w))
             .collect();
-        let mut patch = Self {
+        Self {
+            rational,
+            ..Self::bare(rows, net, u, v)
+        }
+        .measured()
+    }
+
+    /// A patch without weights, from its net, u-major, of which no more than points and derivatives are known: not its box,
+    /// nor what it is thin across.
+    pub(super) fn bare(rows: usize, net: Net, u: [f64; 2], v: [f64; 2]) -> Self {
+        Self {
             rows,
             columns: net.len() / rows,
-            rational,
-            bounds: Bounds::of(points(&net, rational)),
+            rational: false,
+            bounds: Bounds::EMPTY,
             net,
             u,
             v,
             thin: DVec3::ZERO,
             slab: [0.0; 2],
-        };
-        patch.measure();
-        patch
+        }
+    }
+
+    /// The same with its box and what it is thin across.
+    pub(super) fn measured(mut self) -> Self {
+        self.bounds = Bounds::of(points(&self.net, self.rational));
+        self.measure();
+        self
     }
 
     /// Finds what it is thin across.

@@ -1,5 +1,7 @@
 //! Where a curve passes through a sheet.
 
+use std::borrow::Cow;
+
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
@@ -246,7 +248,7 @@ impl<'a> Piercing<'a> {
                 self.patches(&half, &|| half.normals(), &near);
             });
         } else if !near.is_empty() {
-            let facet = Facet::whole(patch, normals());
+            let facet = Facet::whole(Cow::Borrowed(patch), normals());
             for at in near {
                 self.segment = at;
                 self.pieces(&segments[at], &facet);

@@ -77,8 +77,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
-                let beside = self.twins && are_beside(a.patch(p), b.patch(q));
-                if !beside && !apart(a.patch(p), b.patch(q), self.slack()) {
+                let (one, other) = (a.patch(p), b.patch(q));
+                let beside = self.twins && are_beside(&one, &other);
+                if !beside && !apart(&one, &other, self.slack()) {
                     self.patches(&a.facet(p), &b.facet(q));
                 }
             }

@@ -1,11 +1,14 @@
 //! Sheets: surfaces as grids of Bézier patches with a box tree.
 
+use std::borrow::Cow;
+
 use glam::{DVec2, DVec3};
 
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::heights::Plan;
 use super::patch::{Jet, ORDER, Patch};
+use super::patches::Patches;
 use crate::nurbs::Surface;
 
 /// A surface that bounds a region.
@@ -26,10 +29,7 @@ pub(super) struct Sheet {
     pub(super) lands_on: Vec<usize>,
     /// Distinct knots.
     pub(super) knots: [Vec<f64>; 2],
-    /// u-major.
-    patches: Vec<Patch>,
-    /// Cones that hold their normals.
-    normals: Vec<Option<(DVec3, f64)>>,
+    patches: Patches,
     tree: Vec<Node>,
 }
 
@@ -94,25 +94,17 @@ impl Sheet {
             knots.distinct().iter().map(|k| k.0).collect()
         };
         let knots = [distinct(surface.knots_u()), distinct(surface.knots_v())];
-        let rows = order(surface.knots_u());
-        let patch = |piece: &Surface| {
-            let (u, v) = (piece.knots_u().domain(), piece.knots_v().domain());
-            Patch::new(rows, piece.net(), piece.weights(), [u.0, u.1], [v.0, v.1])
-        };
-        let mut patches: Vec<Patch> = surface.bezier_patches().iter().map(patch).collect();
-        // The nurbs module lists patches by u, then v; say so where it matters.
-        patches.sort_by(|a, b| a.u[0].total_cmp(&b.u[0]).then(a.v[0].total_cmp(&b.v[0])));
+        let plan = Plan::of(&surface);
         let mut sheet = Self {
             region,
             outward: 1.0,
             open: Vec::new(),
             lands_on: Vec::new(),
             plane: None,
-            plan: Plan::of(&surface),
+            plan,
+            patches: Patches::of(&surface, &knots, plan.is_some()),
             surface,
             knots,
-            normals: patches.iter().map(Patch::normals).collect(),
-            patches,
             tree: Vec::new(),
         };
         let spans = [sheet.knots[0].len() - 1, sheet.knots[1].len() - 1];
@@ -137,7 +129,7 @@ impl Sheet {
         if long_u == 1 && long_v == 1 {
             let patch = u[0] * (self.knots[1].len() - 1) + v[0];
             self.tree.push(Node {
-                bounds: self.patches[patch].bounds,
+                bounds: self.patches.bounds(patch),
                 kind: NodeKind::Leaf(patch),
             });
             return self.tree.len() - 1;
@@ -170,17 +162,27 @@ impl Sheet {
         &self.tree[at]
     }
 
-    pub(super) fn patch(&self, at: usize) -> &Patch {
-        &self.patches[at]
+    pub(super) fn patch(&self, at: usize) -> Cow<'_, Patch> {
+        self.patches.get(at)
+    }
+
+    /// The parameters that a patch covers, from and to.
+    pub(super) fn range_of(&self, at: usize) -> [DVec2; 2] {
+        let columns = self.knots[1].len() - 1;
+        let (i, j) = (at / columns, at % columns);
+        [0, 1].map(|end| DVec2::new(self.knots[0][i + end], self.knots[1][j + end]))
     }
 
     /// A patch with its normals.
     pub(super) fn facet(&self, at: usize) -> Facet<'_> {
-        Facet::whole(&self.patches[at], self.normals[at])
+        let (patch, normals) = self.patches.with_normals(at);
+        Facet::whole(patch, normals)
     }
 
-    pub(super) fn patches(&self) -> &[Patch] {
-        &self.patches
+    /// All patches, u-major.
+    pub(super) fn patches(&self) -> impl Iterator<Item = Cow<'_, Patch>> {
+        let count = (self.knots[0].len() - 1) * (self.knots[1].len() - 1);
+        (0..count).map(|at| self.patch(at))
     }
 
     pub(super) fn bounds(&self) -> &Bounds {
@@ -229,9 +231,10 @@ impl Sheet {
         spans[0].clone().flat_map(row).collect()
     }
 
-    /// The patch that holds a place, or is nearest to it.
-    pub(super) fn patch_at(&self, u: f64, v: f64) -> &Patch {
-        &self.patches[self.span(0, u) * (self.knots[1].len() - 1) + self.span(1, v)]
+    /// The patch that holds a place, or is nearest to it; for its points and derivatives.
+    pub(super) fn patch_at(&self, u: f64, v: f64) -> Cow<'_, Patch> {
+        let at = self.span(0, u) * (self.knots[1].len() - 1) + self.span(1, v);
+        self.patches.bare(at)
     }
 
     /// Point and derivatives; beyond the borders the polynomial at the border goes on.

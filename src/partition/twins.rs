@@ -46,8 +46,8 @@ fn are_alike(a: &Sheet, b: &Sheet) -> bool {
 }
 
 fn are_apart(a: &Sheet, b: &Sheet, clip: &Bounds) -> bool {
-    let mut pairs = a.patches().iter().zip(b.patches());
-    pairs.all(|(a, b)| patches_are_apart(a, b, clip, DEEPEST))
+    let mut pairs = a.patches().zip(b.patches());
+    pairs.all(|(a, b)| patches_are_apart(&a, &b, clip, DEEPEST))
 }
 
 fn patches_are_apart(a: &Patch, b: &Patch, clip: &Bounds, left: usize) -> bool {

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::section::Section;
+use super::spline::at;
 use super::{Report, text};
 
 /// The domain: 1 km × 1 km × 40 m (m³).
@@ -160,6 +161,21 @@ fn a_horizon_may_touch_an_older_one_at_a_node() {
     let bed = 5e6 * (1.0 - 25.0 / 64.0);
     Report::case("contacts", "horizon-node-at-level")
         .assert_sizes(&[("background", 20e6), ("h", bed), ("g", 20e6 - bed)], 1e-4);
+}
+
+#[test]
+fn a_horizon_may_be_equal_to_an_older_one_over_an_area() {
+    let report = Report::case("contacts", "horizon-grid-partly-level");
+    // The level stays what it is, below the younger horizon too.
+    assert!((report.size("background") / 20e6 - 1.0).abs() < 1e-9);
+    // The bed begins at the second column, from where its spline rises to 4 m as if it came from 4 m below.
+    let mean: f64 = (0..30_000)
+        .map(|k| at(&[-4.0, 0.0, 4.0, 4.0], (f64::from(k) + 0.5) / 1e4).max(0.0))
+        .sum::<f64>()
+        / 3e4;
+    let bed = 1e6 * mean;
+    report.assert_sizes(&[("background", 20e6), ("h", bed), ("g", 20e6 - bed)], 2e-4);
+    assert_eq!((report.pieces("h"), report.pieces("background")), (1, 1));
 }
 
 /// What lies basinward of a clinoform in the domain (m³): its shoreline and its toe are ellipses, of which the second has

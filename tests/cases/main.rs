@@ -8,6 +8,7 @@
 )]
 
 mod contacts;
+mod isochores;
 mod real_data;
 mod section;
 mod spline;
@@ -76,6 +77,13 @@ impl Report {
     /// A volume's size (m³).
     fn size(&self, name: &str) -> f64 {
         self.volume(name)["volume_m3"].as_f64().unwrap()
+    }
+
+    /// Whether a decision says this and that.
+    fn decides(&self, this: &str, that: &str) -> bool {
+        let decisions = self.0["decisions"].as_array().unwrap();
+        let mut words = decisions.iter().map(|one| one.as_str().unwrap());
+        words.any(|words| words.contains(this) && words.contains(that))
     }
 
     fn pieces(&self, name: &str) -> usize {

@@ -36,7 +36,7 @@ fn second_derivatives(values: &[f64]) -> Vec<f64> {
 }
 
 /// The natural cubic spline at t nodes from the first.
-fn at(values: &[f64], t: f64) -> f64 {
+pub(crate) fn at(values: &[f64], t: f64) -> f64 {
     let bends = second_derivatives(values);
     let before = |i: &usize| *i as f64 <= t;
     let i = (0..values.len() - 1).rev().find(before).unwrap_or(0);

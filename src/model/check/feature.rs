@@ -281,7 +281,9 @@ impl Checker<'_> {
         let kind = match draft.kind {
             Some("channel") => self.channel(draft, domain).map(FeatureKind::Channel),
             Some("ellipsoid") => self.ellipsoid(draft, domain).map(FeatureKind::Ellipsoid),
-            Some("horizon") => self.horizon(draft, domain).map(FeatureKind::Horizon),
+            Some("horizon") => self
+                .horizon(draft, family, domain)
+                .map(FeatureKind::Horizon),
             Some("clinoforms") => self.clinoforms(draft, family).map(FeatureKind::Clinoforms),
             _ => None,
         };

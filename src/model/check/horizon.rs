@@ -1,6 +1,7 @@
 //! Horizons.
 
 use super::Checker;
+use super::family::Family;
 use super::feature::Draft;
 use super::surface::Extent;
 use crate::model::file::HorizonFile;
@@ -12,6 +13,7 @@ impl Checker<'_> {
     pub(super) fn horizon(
         &mut self,
         draft: &Draft,
+        family: &Family<'_>,
         domain: Option<&Domain>,
     ) -> Option<HorizonSpec> {
         let file: HorizonFile = self.reader.table(draft.node)?;
@@ -43,7 +45,7 @@ impl Checker<'_> {
             )
             .and_then(|(node, Any)| {
                 let what = format!("the surface of {}", draft.name);
-                self.surface(node, &what, Extent::from(domain))
+                self.surface(node, &what, Extent::from(domain), Some(family))
             });
         let onlapping = match file.relation.map(Field::good) {
             None => Some(false),

@@ -8,6 +8,7 @@ mod family;
 mod feature;
 mod heights;
 mod horizon;
+mod isochore;
 mod quantity;
 mod rock;
 mod selector;

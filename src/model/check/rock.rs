@@ -337,6 +337,7 @@ impl Checker<'_> {
         if let (Ok(base), Ok(top)) = (&base, &top) {
             self.check_order(base.as_ref(), top.as_ref());
         }
+        let least_thickness = self.least_thickness(file.least_thickness, extent);
         let example = "facies = \"mud\"";
         let named = self
             .reader
@@ -348,8 +349,31 @@ impl Checker<'_> {
             z: z?,
             base: base.ok()?.map(|(_, surface)| surface),
             top: top.ok()?.map(|(_, surface)| surface),
+            least_thickness: least_thickness?,
             facies: facies?,
         })
+    }
+
+    /// Below which thickness a bed is absent.
+    fn least_thickness(&self, field: Option<Field<f64>>, extent: Extent) -> Option<f64> {
+        let size = [extent.x, extent.y, extent.z].map(|range| range.map(|[low, high]| high - low));
+        let Some(field) = field else {
+            let squares = size.map(|length| length.map(|length| length * length));
+            return Some(
+                Domain::LEAST_THICKNESS * (squares[0]? + squares[1]? + squares[2]?).sqrt(),
+            );
+        };
+        let (node, least) = field.good()?;
+        let height = size[2].unwrap_or(f64::INFINITY);
+        if (0.0..height).contains(&least) {
+            return Some(least);
+        }
+        self.reader.wrong(
+            node,
+            format!("the `least_thickness` of the domain is {least} m; it must not be below 0, and be less than the domain's height"),
+            "write the thickness in metres below which a bed is absent, such as 0.05; leave it out for next to nothing",
+        );
+        None
     }
 
     fn range(

@@ -1,5 +1,6 @@
 //! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points.
 
+use super::family::Family;
 use super::quantity::{ANY, AZIMUTH, DIP, Limits, quantity};
 use super::tuple::Tuple;
 use super::{Checker, Reported};
@@ -49,6 +50,7 @@ impl Checker<'_> {
         node: NodeId,
         what: &str,
         extent: Extent,
+        family: Option<&Family<'_>>,
     ) -> Option<HorizonSurface> {
         if self.reader.tree.number(node).is_some() {
             let found = self.reader.tree.describe(node);
@@ -66,6 +68,7 @@ impl Checker<'_> {
             ("dipping", file.dipping.is_some()),
             ("grid", file.grid.is_some()),
             ("points", file.points.is_some()),
+            ("above", file.above.is_some() || file.thickness.is_some()),
         ]
         .iter()
         .filter(|(_, given)| *given)
@@ -79,7 +82,8 @@ impl Checker<'_> {
             self.reader.wrong(
                 node,
                 message,
-                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …]",
+                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], or of a horizon above = \"…\" with \
+                 thickness = …",
             );
         }
         if let (Some(Field::Good(at, _)), None) = (&file.tolerance, &file.points) {
@@ -97,7 +101,12 @@ impl Checker<'_> {
         let points = self.form(file.points, |checker, at| {
             checker.scattered(node, at, tolerance, (what, extent))
         });
-        let surface = level.or(dipping).or(grid).or(points)?;
+        let above = if forms.contains(&"above") {
+            self.above(node, (file.above, file.thickness), (what, extent), family)
+        } else {
+            None
+        };
+        let surface = level.or(dipping).or(grid).or(points).or(above)?;
         if self.is_no_data(node, &surface, what, extent) {
             return None;
         }
@@ -146,7 +155,7 @@ impl Checker<'_> {
         true
     }
 
-    fn form(
+    pub(super) fn form(
         &mut self,
         field: Option<Field<Any>>,
         read: impl FnOnce(&mut Self, NodeId) -> Option<HorizonSurface>,
@@ -164,7 +173,7 @@ impl Checker<'_> {
     ) -> Result<Option<(NodeId, HorizonSurface)>, Reported> {
         let Some(field) = field else { return Ok(None) };
         let (node, Any) = field.good().ok_or(Reported)?;
-        self.surface(node, &format!("the {key} of the domain"), extent)
+        self.surface(node, &format!("the {key} of the domain"), extent, None)
             .map(|surface| Some((node, surface)))
             .ok_or(Reported)
     }
@@ -270,7 +279,7 @@ impl Checker<'_> {
             return;
         };
         let heights: Vec<f64> = match surface {
-            HorizonSurface::Level(_) => return,
+            HorizonSurface::Level(_) | HorizonSurface::Above { .. } => return,
             HorizonSurface::Dipping {
                 through,
                 dip_deg,

@@ -8,7 +8,7 @@ use super::{Draws, Key, Reason, Rejected};
 use crate::features::boundary::{BoundaryDesign, FaciesBoundary, Wander};
 use crate::features::clinoform::{Clinoform, ClinoformDesign};
 use crate::features::frame::{ClinoformFrame, ClinoformUnit, Shoreline};
-use crate::features::horizon::Horizon;
+use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::side::Side;
 use crate::model::spec::{Belt, ClinoformsSpec, Domain, HorizonSurface, Interfingering};
 
@@ -65,13 +65,20 @@ fn attempt<T>(
     }
 }
 
-/// Draws a horizon.
+/// Draws a horizon; of one that lies above another one, its thickness.
 pub(in crate::model) fn horizon(
     surface: &HorizonSurface,
     key: Key<'_>,
 ) -> Result<(Horizon, Vec<(String, f64)>), Rejected> {
-    let wrong = |error: crate::features::horizon::HorizonError| ("no horizon", error.to_string());
+    let wrong = |error: HorizonError| ("no horizon", error.to_string());
     attempt(key, |draws| match surface {
+        // What it lies above is not asked for: this is its thickness alone.
+        HorizonSurface::Above { thickness, .. } => match &**thickness {
+            HorizonSurface::Level(thickness) => {
+                Horizon::flat(draws.quantity(thickness, "surface.thickness")?).map_err(wrong)
+            }
+            measured => measured_heights(measured).map_err(wrong),
+        },
         HorizonSurface::Level(level) => {
             Horizon::flat(draws.quantity(level, "surface.level")?).map_err(wrong)
         }
@@ -89,12 +96,20 @@ pub(in crate::model) fn horizon(
             let azimuth = draws.quantity(azimuth_deg, "surface.dipping.azimuth_deg")?;
             Horizon::dipping(through, dip.to_radians(), azimuth.to_radians()).map_err(wrong)
         }
-        HorizonSurface::Grid { x, y, heights } => Horizon::grid(*x, *y, heights).map_err(wrong),
+        measured => measured_heights(measured).map_err(wrong),
+    })
+}
+
+/// Through a grid, or near points; of what is neither, nothing.
+fn measured_heights(surface: &HorizonSurface) -> Result<Horizon, HorizonError> {
+    match surface {
+        HorizonSurface::Grid { x, y, heights } => Horizon::grid(*x, *y, heights),
         HorizonSurface::Points { points, tolerance } => {
             let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(*p)).collect();
-            Horizon::points(&points, *tolerance).map_err(wrong)
+            Horizon::points(&points, *tolerance)
         }
-    })
+        _ => Err(HorizonError::NoPoints),
+    }
 }
 
 /// The side above a horizon.

@@ -2,6 +2,7 @@
 //! volumes there are depends on it.
 
 mod clinothems;
+mod coincidence;
 
 use std::collections::BTreeMap;
 
@@ -15,6 +16,7 @@ use crate::model::draws::{self, strata};
 use crate::model::rules::{BACKGROUND, VolumeRules};
 use crate::model::selection::Selection;
 use crate::model::spec::{Domain, Feature, FeatureKind, HorizonSurface, Model, Selector};
+use coincidence::Strata;
 
 /// A volume that is to be realised.
 pub(super) struct Planned {
@@ -38,6 +40,10 @@ pub(super) struct Listing<'a> {
     pub(super) planned: Vec<Planned>,
     /// The horizons by feature, of those features that are one, whether or not they take part.
     horizons: BTreeMap<usize, DrawnHorizon>,
+    /// By feature: the horizon that lies nowhere below this other one.
+    above: BTreeMap<usize, usize>,
+    /// The volumes of those horizons so far that take part, by feature.
+    units: BTreeMap<usize, usize>,
     /// The domain's own base and top.
     pub(super) bounds: [Option<Horizon>; 2],
     /// What was drawn for them.
@@ -75,25 +81,18 @@ impl<'a> Listing<'a> {
             removed_by: Selector::Everything,
             preserve: false,
             from: None,
+            above: None,
         };
-        let mut horizons = BTreeMap::new();
-        let mut rejected = Vec::new();
-        for (index, feature) in model.features.iter().enumerate() {
-            if let FeatureKind::Horizon(spec) = &feature.kind {
-                let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
-                let ((horizon, drawn), reasons) = draw_whole(model, &feature.id, "1", draw)?;
-                rejected.extend(reasons.into_iter().map(|reason| (Some(index), reason)));
-                horizons.insert(index, (horizon, drawn));
-            }
-        }
         let mut list = Self {
-            rejected,
+            rejected: Vec::new(),
             decisions: Vec::new(),
             model,
             selection,
             volumes: vec![background],
             planned: Vec::new(),
-            horizons,
+            horizons: BTreeMap::new(),
+            above: BTreeMap::new(),
+            units: BTreeMap::new(),
             bounds: [None, None],
             drawn: Vec::new(),
             step,
@@ -105,6 +104,7 @@ impl<'a> Listing<'a> {
             list.bound("base", model.domain.base.as_ref())?,
             list.bound("top", model.domain.top.as_ref())?,
         ];
+        list.strata()?;
         if step > 0.0 {
             list.move_horizons_apart();
         }
@@ -136,6 +136,30 @@ impl<'a> Listing<'a> {
                 *bound = moved(bound, age);
             }
         }
+    }
+
+    /// Draws all horizons; where they coincide over an area it is decided what that means.
+    fn strata(&mut self) -> Result<(), RealisationError> {
+        let mut drawn = BTreeMap::new();
+        let mut parameters = Vec::new();
+        for (index, feature) in self.model.features.iter().enumerate() {
+            if let FeatureKind::Horizon(spec) = &feature.kind {
+                let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
+                let ((horizon, own), reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
+                let rejected = reasons.into_iter().map(|reason| (Some(index), reason));
+                self.rejected.extend(rejected);
+                drawn.insert(index, horizon);
+                parameters.push(own);
+            }
+        }
+        let bounds = [self.domain_bound(false)?, self.domain_bound(true)?];
+        let strata = Strata::of(self.model, self.selection, drawn, &bounds)?;
+        self.decisions.extend(strata.decisions);
+        self.above = strata.above;
+        for ((index, horizon), own) in strata.horizons.into_iter().zip(parameters) {
+            self.horizons.insert(index, (horizon, own));
+        }
+        Ok(())
     }
 
     /// Draws the domain's own base or top.
@@ -191,7 +215,10 @@ impl<'a> Listing<'a> {
                 let ready = match &feature.kind {
                     FeatureKind::Horizon(spec) => {
                         rules.from = spec.onlapping.then_some(self.open);
+                        let below = self.above.get(&index);
+                        rules.above = below.and_then(|below| self.units.get(below)).copied();
                         self.open = self.volumes.len();
+                        self.units.insert(index, self.open);
                         Some(self.horizon(index)?)
                     }
                     _ => None,
@@ -255,6 +282,7 @@ impl<'a> Listing<'a> {
             removed_by: feature.removed_by.clone(),
             preserve: feature.preserve,
             from: None,
+            above: None,
         }
     }
 }

@@ -13,7 +13,7 @@
 //! - A gate g older than b, of a volume v younger than b that takes from g alone: b then meets a place
 //!   that g holds and must leave to v, so they meet only if b takes from g.
 //!
-//! In doubt, sides meet.
+//! In doubt, sides meet. Where a volume lies `above` another one, that one's side is a side of both.
 //!
 //! A volume *hides* another one where its body holds a place, or where it does not, if the other's side makes no
 //! difference there, whatever the rest: what a needs is not there, or something younger has taken all.
@@ -38,6 +38,15 @@ pub(super) struct Past {
 impl Rules {
     /// Whether there can be a place beside which both volumes' sides matter. `false` is certain; `true` may be doubt.
     pub fn may_meet(&self, one: usize, other: usize) -> bool {
+        // A side matters to what lies above its volume as well.
+        self.resting(one).any(|one| {
+            self.resting(other)
+                .any(|other| self.may_both_hold(one, other))
+        })
+    }
+
+    /// The same of what volumes hold: within their own bodies, and within all that they lie above.
+    fn may_both_hold(&self, one: usize, other: usize) -> bool {
         let (b, a) = (one.min(other), one.max(other));
         if a == b {
             return true;
@@ -66,6 +75,25 @@ impl Rules {
     pub fn hides(&self, other: usize, holds: bool, volume: usize) -> bool {
         if volume == BACKGROUND || other == volume {
             return volume == BACKGROUND;
+        }
+        // Within its body a volume holds a place only if what it lies above does.
+        if holds && self.volumes[other].above.is_some() {
+            return false;
+        }
+        self.resting(volume).all(|own| {
+            if holds {
+                self.makes_idle(other, true, own)
+            } else {
+                self.resting(other)
+                    .any(|other| other == own || self.makes_idle(other, false, own))
+            }
+        })
+    }
+
+    /// The same of what volumes hold, in the end.
+    fn makes_idle(&self, other: usize, holds: bool, volume: usize) -> bool {
+        if other == volume {
+            return false;
         }
         if !holds {
             return self.needs(volume, other);

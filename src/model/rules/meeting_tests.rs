@@ -31,6 +31,7 @@ fn volume(name: &str, parent: Option<usize>, from: Option<usize>) -> VolumeRules
         removed_by: Selector::Everything,
         preserve: false,
         from,
+        above: None,
     }
 }
 
@@ -40,6 +41,7 @@ fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
     let one = (
         prop::option::weighted(0.4, older()),
         prop::option::weighted(0.5, older()),
+        prop::option::weighted(0.25, older()),
         prop::bool::weighted(0.15),
         prop::option::weighted(0.2, prop::collection::vec(0_usize..7, 0..5)),
         prop::option::weighted(0.2, prop::collection::vec(0_usize..7, 0..5)),
@@ -52,10 +54,15 @@ fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
             })
         };
         let mut volumes = vec![volume("0", None, None)];
-        for (parent, from, preserve, removes, removed_by) in drawn {
+        for (parent, from, above, preserve, removes, removed_by) in drawn {
             let at = volumes.len();
             let older = |which: prop::sample::Index| which.index(at);
+            // The background has no body.
+            let above = above
+                .filter(|_| at > 1)
+                .map(|which| 1 + which.index(at - 1));
             volumes.push(VolumeRules {
+                above,
                 preserve,
                 removes: selector(removes),
                 removed_by: selector(removed_by),

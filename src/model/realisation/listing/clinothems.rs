@@ -13,7 +13,7 @@ use crate::model::spec::{Belt, Bound, ClinoformsSpec, Feature, FeatureKind};
 
 impl Listing<'_> {
     /// The horizon that bounds the domain: its own, or the block's.
-    fn domain_bound(&self, top: bool) -> Result<Horizon, RealisationError> {
+    pub(super) fn domain_bound(&self, top: bool) -> Result<Horizon, RealisationError> {
         let at = usize::from(top);
         match &self.bounds[at] {
             Some(horizon) => Ok(horizon.clone()),
