@@ -10,10 +10,10 @@ use regions::regions;
 use relations::Relations;
 use tables::tables;
 
-use super::kernel::{Cancel, FaceIntegral, FaceSample, Solids};
+use super::kernel::{Cancel, FaceIntegral, Solids};
 use super::labels::Holders;
 use super::measure::{Counts, Measured};
-use super::proof::{Check, Evidence};
+use super::proof::Evidence;
 use super::shapes::EXACT;
 use super::{AssemblyError, Engine, Failed, Options, contacts};
 use crate::features::body::TroughError;
@@ -96,7 +96,7 @@ pub(super) fn attempt(
             ..Failed::new(Engine::Partition, remedy.name, why)
         }));
     }
-    match finish(plan, &made) {
+    match finish(plan, made) {
         Ok(made) => Ok(Ok(made)),
         Err(error) => failed(format!("the kernel refuses its topology: {error}")),
     }
@@ -155,7 +155,7 @@ fn partition(
 
 fn finish(
     plan: &AssemblyPlan,
-    made: &Partition,
+    made: Partition,
 ) -> Result<Partitioned, super::kernel::BridgeError> {
     let topology = &made.topology;
     let first_shell = 1 + plan.lids.len();
@@ -189,17 +189,8 @@ fn finish(
     Ok(Partitioned {
         evidence: Evidence {
             lids: plan.lids.len(),
-            samples: Some(samples(topology)),
-            checks: vec![Check {
-                name: "distance of edges from their surfaces and vertices (m)",
-                measured: deviation,
-                bound: EXACT.max(1e-9 * (plan.high() - plan.low()).length()),
-                detail: format!(
-                    "{} edges, {} computed curves",
-                    topology.edges.len(),
-                    made.branches
-                ),
-            }],
+            topology: Some(made.topology),
+            checks: Vec::new(),
         },
         crossing_bodies: made.crossing_regions.iter().filter(bodies).count(),
         solids,
@@ -212,23 +203,4 @@ fn deviation(topology: &Topology) -> f64 {
     let edges = topology.edges.iter().map(|edge| edge.deviation);
     let vertices = topology.vertices.iter().map(|vertex| vertex.gap);
     edges.chain(vertices).fold(0.0, f64::max)
-}
-
-fn samples(topology: &Topology) -> Vec<FaceSample> {
-    let of_face = |(face, own): (usize, &partition::Face)| {
-        own.samples
-            .iter()
-            .map(|sample| FaceSample {
-                face,
-                point: sample.point.to_array(),
-                normal: sample.normal.to_array(),
-            })
-            .collect::<Vec<_>>()
-    };
-    topology
-        .faces
-        .iter()
-        .enumerate()
-        .flat_map(of_face)
-        .collect()
 }

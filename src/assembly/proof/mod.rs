@@ -4,15 +4,24 @@
 //! point evaluator's. A general fuse can lose nine tenths of a model with every solid valid; the volume
 //! sum, the faces without a neighbour and the owners all find it.
 
+mod closed;
+mod extrema;
+mod lines;
+mod outline;
 mod samples;
+mod scene;
+mod spline;
+mod tree;
 
 use glam::DVec3;
 
 use super::Options;
-use super::kernel::{BridgeError, Cancel, FaceSample, Solids, Threads, defects};
+use super::kernel::{BridgeError, Cancel, Solids, Threads, defects};
 use super::measure::Measured;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
+use crate::partition::Topology;
+use scene::Scene;
 
 /// The model's tolerance: what shells are built to (m).
 const TOLERANCE: f64 = super::shapes::EXACT;
@@ -22,6 +31,8 @@ const TOLERANCE: f64 = super::shapes::EXACT;
 const SUM_TOLERANCE: f64 = 3e-12;
 /// Roundings of the farthest coordinate, by which planes are off too.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+/// How near to an edge a line says nothing, as a share of the domain's diagonal: what edges may be off.
+const NEAR: f64 = 1e-9;
 /// Relative error of the kernel's integrals.
 const KERNEL_VOLUME: f64 = 1e-6;
 /// The domain's argument among the kernel's arguments: its block, and the base and top that bound it there.
@@ -121,8 +132,8 @@ impl From<BridgeError> for ProofError {
 pub(super) struct Evidence {
     /// Lids among the arguments.
     pub(super) lids: usize,
-    /// Points of all faces, if the engine has them.
-    pub(super) samples: Option<Vec<FaceSample>>,
+    /// The tables that the kernel and the files are given, if the engine has them.
+    pub(super) topology: Option<Topology>,
     /// What the engine states itself.
     pub(super) checks: Vec<Check>,
 }
@@ -132,7 +143,7 @@ impl Evidence {
     pub(super) fn of_kernel(lids: usize) -> Self {
         Self {
             lids,
-            samples: None,
+            topology: None,
             checks: Vec::new(),
         }
     }
@@ -168,11 +179,21 @@ impl Prover<'_> {
                 ])
             }),
             Box::new(|| Ok(vec![self.sharing()])),
-            Box::new(|| Ok(self.sampled_volumes())),
-            Box::new(|| Ok(vec![self.beside_faces()?])),
         ];
-        // What an engine of ours has made it has checked itself; of a fuse's result the kernel is asked.
-        let is_ours = self.evidence.samples.is_some();
+        let topology = self.evidence.topology.as_ref();
+        if let Some(topology) = topology {
+            steps.push(Box::new(|| {
+                Ok(vec![self.closure(topology), self.deviation(topology)])
+            }));
+            steps.push(Box::new(|| self.lines(&self.scene(topology))));
+        }
+        steps.push(Box::new(|| Ok(self.sampled_volumes())));
+        // Lines through every face have asked what lies beside it.
+        if topology.is_none() {
+            steps.push(Box::new(|| Ok(vec![self.beside_faces()?])));
+        }
+        // What an engine of ours has made is judged by its tables; of a fuse's result the kernel is asked.
+        let is_ours = topology.is_some();
         if !is_ours || self.options.proof == Level::Full {
             steps.push(Box::new(|| Ok(vec![self.validity()?])));
             steps.push(Box::new(|| Ok(vec![self.within_solids()?])));
@@ -199,6 +220,14 @@ impl Prover<'_> {
 
     fn name(&self, volume: usize) -> &str {
         &self.plan.names[volume]
+    }
+
+    /// Finished topology, to be followed by lines.
+    fn scene<'b>(&self, topology: &'b Topology) -> Scene<'b> {
+        let (low, high) = (self.plan.low(), self.plan.high());
+        let farthest = low.abs().max(high.abs()).max_element();
+        let near = NEAR * (high - low).length() + ROUNDINGS * farthest;
+        Scene::new(topology, near)
     }
 
     /// Mean distance by which the skin may be off in the sum of volumes (m).
