@@ -103,7 +103,7 @@ pub(super) fn attempt(
 }
 
 #[derive(Debug, thiserror::Error)]
-enum Trouble {
+pub(super) enum Trouble {
     #[error(transparent)]
     Partition(#[from] PartitionError),
     #[error("a body cannot be cut off outside of the domain: {0}")]
@@ -116,7 +116,8 @@ enum Trouble {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-fn partition(
+/// The partition alone.
+pub(super) fn partition(
     plan: &AssemblyPlan,
     owners: &Owners,
     remedy: &Remedy,
@@ -153,7 +154,8 @@ fn partition(
     pool.install(run)
 }
 
-fn finish(
+/// What the partition has made as the kernel's solids, with what it takes to prove them.
+pub(super) fn finish(
     plan: &AssemblyPlan,
     made: Partition,
 ) -> Result<Partitioned, super::kernel::BridgeError> {

@@ -12,22 +12,34 @@ use smallvec::SmallVec;
 
 use super::Surface;
 use super::bezier::{Patch, Region};
+use super::knots::ORDER;
 
 /// Halvings of one patch before a line is given up.
 const MOST_HALVINGS: usize = 400;
 /// How far beyond the borders of a patch, in its parameters, a place still belongs to it: rounding.
 const BORDER: f64 = 1e-9;
 
-/// A line parallel to an axis.
+/// A line parallel to an axis, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// The axis: 0 for x, 1 for y, 2 for z.
     pub axis: usize,
     /// A point that it passes through; the coordinate along the axis does not matter.
     pub through: DVec3,
+    /// From where to where it goes along the axis.
+    pub range: [f64; 2],
 }
 
 impl Line {
+    /// The whole line along an axis through a point.
+    pub fn whole(axis: usize, through: DVec3) -> Self {
+        Self {
+            axis,
+            through,
+            range: [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+
     /// The other two axes.
     fn across(self) -> [usize; 2] {
         [(self.axis + 1) % 3, (self.axis + 2) % 3]
@@ -48,9 +60,12 @@ impl Line {
 
     /// Whether it comes this near to a box.
     pub fn meets(self, (low, high): (DVec3, DVec3), near: f64) -> bool {
-        self.across().into_iter().all(|k| {
-            low[k] <= self.through[k] + near && self.through[k] - near <= high[k]
-        })
+        let [from, to] = self.range;
+        low[self.axis] <= to
+            && from <= high[self.axis]
+            && self.across().into_iter().all(|k| {
+                low[k] <= self.through[k] + near && self.through[k] - near <= high[k]
+            })
     }
 }
 
@@ -192,7 +207,13 @@ impl View {
             net: patch
                 .net
                 .iter()
-                .map(|h| (line.view(h.xyz() / h.w) - origin) * h.w)
+                .map(|h| {
+                    if h.w == 1.0 {
+                        line.view(h.xyz()) - origin
+                    } else {
+                        (line.view(h.xyz() / h.w) - origin) * h.w
+                    }
+                })
                 .collect(),
             weight: patch.weight_range().0,
             low: DVec2::ZERO,
@@ -216,7 +237,7 @@ impl View {
         if low.cmpgt(DVec2::splat(near)).any() || high.cmplt(DVec2::splat(-near)).any() {
             return Verdict::Beside;
         }
-        let (_, s, t) = self.jet(DVec2::splat(0.5));
+        let (middle, s, t) = self.jet(DVec2::splat(0.5));
         let determinant = s.perp_dot(t);
         if !(determinant.abs() > 1e-12 * s.length() * t.length()) {
             return Verdict::Unknown;
@@ -232,7 +253,8 @@ impl View {
         if !self.is_injective(&straight) {
             return Verdict::Unknown;
         }
-        match self.newton() {
+        // The linear map is a good start.
+        match self.newton(DVec2::splat(0.5) - unskewed(middle)) {
             Some(at) if at.cmpge(DVec2::splat(-BORDER)).all() && at.cmple(DVec2::splat(1.0 + BORDER)).all() => {
                 Verdict::Passes(at)
             }
@@ -265,8 +287,7 @@ impl View {
         tilt_s * tilt_t < 1.0
     }
 
-    fn newton(&self) -> Option<DVec2> {
-        let mut at = DVec2::splat(0.5);
+    fn newton(&self, mut at: DVec2) -> Option<DVec2> {
         for _ in 0..16 {
             let (g, s, t) = self.jet(at);
             let determinant = s.perp_dot(t);
@@ -278,7 +299,8 @@ impl View {
             if !at.is_finite() || at.abs().max_element() > 4.0 {
                 return None;
             }
-            if step.abs().max_element() < 1e-12 {
+            // The next step would be the square of it.
+            if step.abs().max_element() < 1e-8 {
                 return Some(at);
             }
         }
@@ -287,15 +309,13 @@ impl View {
 
     /// The value and both derivatives.
     fn jet(&self, at: DVec2) -> (DVec2, DVec2, DVec2) {
-        let mut values: SmallVec<[DVec2; 8]> = SmallVec::new();
-        let mut slopes: SmallVec<[DVec2; 8]> = SmallVec::new();
-        for row in self.net.chunks_exact(self.columns) {
-            let (value, slope) = casteljau(row, at.y);
-            values.push(value);
-            slopes.push(slope);
+        let mut values = [DVec2::ZERO; ORDER];
+        let mut slopes = [DVec2::ZERO; ORDER];
+        for (i, row) in self.net.chunks_exact(self.columns).enumerate() {
+            (values[i], slopes[i]) = casteljau(row, at.y);
         }
-        let (value, s) = casteljau(&values, at.x);
-        (value, s, casteljau(&slopes, at.x).0)
+        let (value, s) = casteljau(&values[..self.rows], at.x);
+        (value, s, casteljau(&slopes[..self.rows], at.x).0)
     }
 
     fn halves(&self) -> [Self; 2] {
@@ -343,7 +363,8 @@ fn casteljau(points: &[DVec2], t: f64) -> (DVec2, DVec2) {
     if degree == 0 {
         return (points[0], DVec2::ZERO);
     }
-    let mut work: SmallVec<[DVec2; 8]> = SmallVec::from_slice(points);
+    let mut work = [DVec2::ZERO; ORDER];
+    work[..=degree].copy_from_slice(points);
     for round in 1..degree {
         for k in 0..=degree - round {
             work[k] = work[k].lerp(work[k + 1], t);
@@ -415,7 +436,7 @@ mod tests {
             for k in 1..400_u32 {
                 let part = DVec3::new(0.819_172_513, 0.671_043_607, 0.549_700_478) * f64::from(k);
                 let through = 2.4 * part.fract() - 1.2;
-                let line = Line { axis, through };
+                let line = Line::whole(axis, through);
                 let off = line.view(through).length_squared();
                 let Some(mut found) = target.passages(line, 1e-10) else {
                     continue;
@@ -445,10 +466,7 @@ mod tests {
     #[test]
     fn a_line_that_grazes_a_fold_is_not_clear_and_one_through_a_border_passes_once() {
         let target = Target::new(&sphere());
-        let line = |x: f64, y: f64| Line {
-            axis: 2,
-            through: DVec3::new(x, y, 0.0),
-        };
+        let line = |x: f64, y: f64| Line::whole(2, DVec3::new(x, y, 0.0));
         let (sine, cosine) = 0.7_f64.sin_cos();
         assert_eq!(target.passages(line(cosine, sine), 1e-9), None);
         // On the meridian where four quarters begin and end, all of them know the place.
@@ -469,10 +487,7 @@ mod tests {
         let surface = Surface::new(knots.clone(), knots, net.collect()).unwrap();
         let target = Target::new(&surface);
         for (x, y) in [(0.3, 0.7), (1.0, 1.0), (1.9, 0.01)] {
-            let line = Line {
-                axis: 2,
-                through: far + DVec3::new(x, y, 0.0),
-            };
+            let line = Line::whole(2, far + DVec3::new(x, y, 0.0));
             let found = target.passages(line, 1e-8).unwrap();
             assert_eq!(found.len(), 1);
             assert!((found[0].point.z - x * x).abs() < 1e-8);

@@ -41,7 +41,6 @@ mod polygon;
 mod quadrature;
 mod region;
 mod relations;
-mod samples;
 mod scalar;
 mod seeds;
 mod sheet;
@@ -62,7 +61,7 @@ pub use check::{Doubt, Faults};
 pub use quadrature::Integral;
 pub use region::{Membership, Region};
 pub use topology::{
-    CurveShape, Edge, Face, FaceSample, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
+    CurveShape, Edge, Face, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
 };
 
 /// The volume that holds a place; `None` outside of the domain.

@@ -1,14 +1,18 @@
 //! Whether finished topology is closed, by its tables alone: loops, solids, and edges on their surfaces.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::scene::pieces;
 use super::spline::Spline;
 use super::{Check, Prover, TOLERANCE};
-use crate::partition::{Edge, Topology};
+use crate::nurbs::Surface;
+use crate::partition::{Edge, Face, Topology};
 
 /// Where in a span an edge is measured: at no place that its making prefers.
 const PART: f64 = 0.414_213_562;
+/// How far beyond a surface's parameters curves on it may go, as a share of their range: rounding.
+const BEYOND: f64 = 1e-7;
 
 impl Prover<'_> {
     /// Loops lead from vertex to vertex, and every solid is left along an edge as often as it is entered.
@@ -63,6 +67,41 @@ impl Prover<'_> {
         }
     }
 
+    /// The first loop of a face is the outer one, and so is the first shell of a solid: readers take them so.
+    pub(super) fn nesting(&self, topology: &Topology) -> Check {
+        let mut wrong = Vec::new();
+        let flux = |shell: &[(usize, bool)]| {
+            let signed = |&(face, reversed): &(usize, bool)| {
+                let flux = topology.faces[face].integral.flux;
+                if reversed { -flux } else { flux }
+            };
+            shell.iter().map(signed).sum::<f64>()
+        };
+        for solid in &topology.solids {
+            let mut shells = solid.shells.iter();
+            let is_right = shells.next().is_some_and(|outer| flux(outer) > 0.0)
+                && shells.all(|void| flux(void) < 0.0);
+            if !is_right {
+                wrong.push(format!("the shells of {}", self.name(solid.label)));
+            }
+        }
+        for (index, face) in topology.faces.iter().enumerate() {
+            let areas = loop_areas(topology, face);
+            let is_right = areas
+                .split_first()
+                .is_some_and(|(outer, holes)| holes.iter().all(|hole| outer * hole < 0.0 && outer.abs() > hole.abs()));
+            if !is_right {
+                wrong.push(format!("the loops of a face of {}", self.volumes_of(topology, index)));
+            }
+        }
+        Check {
+            name: "loops and shells that are not outer ones with what lies in them",
+            measured: wrong.len() as f64,
+            bound: 0.0,
+            detail: wrong.iter().take(5).cloned().collect::<Vec<_>>().join(", "),
+        }
+    }
+
     /// No edge is far from the surfaces of faces beside it and from its vertices: measured here, and what its maker says.
     pub(super) fn deviation(&self, topology: &Topology) -> Check {
         let mut beside = vec![Vec::new(); topology.edges.len()];
@@ -98,6 +137,23 @@ impl Prover<'_> {
     }
 }
 
+/// Signed areas of a face's loops in the parameters of its surface, by the control polygons of its edges' pieces.
+fn loop_areas(topology: &Topology, face: &Face) -> Vec<f64> {
+    let area = |own: &Vec<(usize, bool)>| {
+        let nets = own.iter().flat_map(|half| pieces(topology, face, *half));
+        let points: Vec<DVec2> = nets
+            .flatten()
+            .map(|h| DVec2::new(h.x, h.y) / h.w)
+            .collect();
+        let Some(&origin) = points.first() else { return 0.0 };
+        let pairs = points.iter().zip(points.iter().cycle().skip(1));
+        pairs
+            .map(|(a, b)| 0.5 * (*a - origin).perp_dot(*b - origin))
+            .sum::<f64>()
+    };
+    face.loops.iter().map(area).collect()
+}
+
 /// Farthest of an edge from the surfaces of faces that run along it one way or the other, and from its vertices (m).
 fn off(topology: &Topology, index: usize, beside: &[(usize, bool)]) -> f64 {
     let edge = &topology.edges[index];
@@ -129,8 +185,7 @@ fn off(topology: &Topology, index: usize, beside: &[(usize, bool)]) -> f64 {
             return f64::INFINITY;
         };
         for (t, point) in places.iter().zip(&points) {
-            let uv = image.point(*t);
-            note(sheet.surface.point(uv.x, uv.y).distance(*point));
+            note(on_surface(&sheet.surface, image.point(*t)).distance(*point));
         }
     }
     farthest
@@ -145,12 +200,25 @@ fn off_pole(topology: &Topology, edge: &Edge, beside: &[(usize, bool)]) -> f64 {
             return f64::INFINITY;
         };
         for t in edge.range {
-            let uv = image.point(t);
-            let there = topology.sheets[at].surface.point(uv.x, uv.y);
-            farthest = farthest.max(there.distance(point));
+            let there = on_surface(&topology.sheets[at].surface, image.point(t));
+            let apart = there.distance(point);
+            farthest = if apart.is_nan() { f64::INFINITY } else { farthest.max(apart) };
         }
     }
     farthest
+}
+
+/// The point of a surface at parameters; nowhere if they are beyond its own by more than rounding.
+fn on_surface(surface: &Surface, at: DVec3) -> DVec3 {
+    let within = |x: f64, (low, high): (f64, f64)| {
+        let slack = BEYOND * (high - low);
+        low - slack <= x && x <= high + slack
+    };
+    if within(at.x, surface.knots_u().domain()) && within(at.y, surface.knots_v().domain()) {
+        surface.point(at.x, at.y)
+    } else {
+        DVec3::INFINITY
+    }
 }
 
 /// An edge's curve in the parameters of a surface, where a face runs along it one way or the other.

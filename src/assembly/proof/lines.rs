@@ -10,7 +10,7 @@
 //! - columns where the difference of two heights has an extremum ([`super::extrema`]): a closed curve in which they cross has
 //!   one inside.
 //!
-//! Through every face go two lines, roughly across it; there only what lies next to the face is asked for. Two points on either
+//! Through every face go two shorter lines, roughly across it; there only what lies next to the face is asked for. Two points on either
 //! side, one of them near, never farther than the bed beside the face is thick.
 
 use glam::{DVec2, DVec3};
@@ -24,13 +24,15 @@ use crate::nurbs::pierce::{Line, Target};
 use crate::nurbs::{Surface, SurfaceError};
 
 /// Columns each way over the plan.
-const COLUMNS: usize = 12;
+const COLUMNS: usize = 10;
 /// Lines through patches of bodies.
-const OF_BODIES: usize = 192;
+const OF_BODIES: usize = 128;
 /// Lines through each face …
 const OF_FACE: usize = 2;
 /// … or as many of all.
 const OF_FACES: usize = 250;
+/// How far lines through faces go each way, as a share of the domain's size along them.
+const BESIDE: f64 = 0.1;
 /// How often a line that is not clear is drawn again.
 const TRIES: usize = 6;
 /// Questions to the point evaluator, in bodies that each of them asks at most: with more bodies there are fewer columns, …
@@ -182,10 +184,7 @@ impl Prover<'_> {
             let cell = DVec2::new((i % each) as f64, (i / each) as f64);
             let column = |_| {
                 let part = (cell + DVec2::new(stream.unit(), stream.unit())) / each as f64;
-                Line {
-                    axis: 2,
-                    through: low + size * part.extend(0.0),
-                }
+                Line::whole(2, low + size * part.extend(0.0))
             };
             lines.push((0..TRIES).map(column).collect());
         }
@@ -193,10 +192,7 @@ impl Prover<'_> {
         lines.extend(extrema.iter().map(|(place, reach)| {
             let column = |k: usize| {
                 let turn = DVec2::from_angle(2.4 * k as f64) * *reach * (k as f64 / TRIES as f64);
-                Line {
-                    axis: 2,
-                    through: (*place + turn).extend(0.0),
-                }
+                Line::whole(2, (*place + turn).extend(0.0))
             };
             (0..TRIES).map(column).collect()
         }));
@@ -263,7 +259,9 @@ impl Prover<'_> {
             if found.lines == each {
                 break;
             }
-            let line = across(point, normal);
+            let mut line = across(point, normal);
+            let size = (self.plan.high() - self.plan.low())[line.axis];
+            line.range = [-BESIDE, BESIDE].map(|part| point[line.axis] + part * size);
             if !self.follow(scene, bodies, line, Purpose::Face(face), &mut found) {
                 found.redrawn += 1;
             }
@@ -294,7 +292,7 @@ impl Prover<'_> {
             found.broken.push(format!("a face of {name} is not where its edges are, at {:.4}", line.through));
             return true;
         }
-        match stretches(scene, crossings) {
+        match stretches(scene, line, crossings) {
             Err(broken) => found.broken.push(self.words(scene, line, broken)),
             Ok(stretches) => match purpose {
                 Purpose::All => self.ask_all(scene, bodies, line, &stretches, found),
@@ -342,8 +340,12 @@ impl Prover<'_> {
         stretches: &[Stretch],
         found: &mut Findings,
     ) {
-        // A golden-section sequence spreads the distances over two decades.
-        let spread = (face as f64 * 0.618_033_988_749_895).fract();
+        // Every other line from as near as can be; for the others a golden-section sequence over two decades.
+        let spread = if found.lines % 2 == 1 {
+            0.0
+        } else {
+            (face as f64 * 0.618_033_988_749_895).fract()
+        };
         let reach = (10.0 * TOLERANCE).max(8.0 * self.hidden()) * 100_f64.powf(spread);
         for stretch in stretches {
             let [from, to] = stretch.range;
@@ -355,9 +357,7 @@ impl Prover<'_> {
                 }
                 let near = reach.min(0.25 * (to - from));
                 self.ask(scene, line, end + side * near, stretch.solid, found);
-                if (to - from).is_finite() {
-                    self.ask(scene, line, 0.5 * (from + to), stretch.solid, found);
-                }
+                self.ask(scene, line, 0.5 * (from + to), stretch.solid, found);
             }
         }
     }
@@ -420,8 +420,5 @@ impl Prover<'_> {
 fn across(point: DVec3, normal: DVec3) -> Line {
     let size = normal.abs();
     let axis = (0..3).fold(0, |best, k| if size[k] > size[best] { k } else { best });
-    Line {
-        axis,
-        through: point,
-    }
+    Line::whole(axis, point)
 }

@@ -5,6 +5,10 @@
 //! sum, the faces without a neighbour and the owners all find it.
 
 mod closed;
+#[cfg(test)]
+mod damage;
+#[cfg(test)]
+mod damage_tests;
 mod extrema;
 mod lines;
 mod outline;
@@ -163,12 +167,8 @@ pub(super) struct Prover<'a> {
 }
 
 impl Prover<'_> {
-    /// All statements, up to the first group that does not hold.
-    pub(super) fn prove(
-        &self,
-        cancel: &Cancel,
-        progress: &(dyn Fn(f64) + Sync),
-    ) -> Result<Proof, ProofError> {
+    /// All groups of statements, the cheap ones first.
+    fn steps(&self) -> Vec<Step<'_>> {
         let mut steps: Vec<Step<'_>> = vec![
             Box::new(|| Ok(self.evidence.checks.clone())),
             Box::new(|| {
@@ -183,7 +183,11 @@ impl Prover<'_> {
         let topology = self.evidence.topology.as_ref();
         if let Some(topology) = topology {
             steps.push(Box::new(|| {
-                Ok(vec![self.closure(topology), self.deviation(topology)])
+                Ok(vec![
+                    self.closure(topology),
+                    self.nesting(topology),
+                    self.deviation(topology),
+                ])
             }));
             steps.push(Box::new(|| self.lines(&self.scene(topology))));
         }
@@ -201,6 +205,16 @@ impl Prover<'_> {
         if is_ours && self.options.proof == Level::Full {
             steps.push(Box::new(|| Ok(vec![self.kernel_volumes()?])));
         }
+        steps
+    }
+
+    /// All statements, up to the first group that does not hold.
+    pub(super) fn prove(
+        &self,
+        cancel: &Cancel,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Proof, ProofError> {
+        let steps = self.steps();
         let mut checks = Vec::new();
         for (i, step) in steps.iter().enumerate() {
             if cancel.is_cancelled() {

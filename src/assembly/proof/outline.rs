@@ -5,7 +5,6 @@
 //! smaller than a given slack is the border itself: no answer.
 
 use glam::{DVec2, DVec4};
-use smallvec::SmallVec;
 
 use super::spline::Net;
 
@@ -18,8 +17,18 @@ const STRAIGHT: f64 = 1e-4;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outline {
     pieces: Vec<Piece>,
+    /// Where each piece is: most are told by that alone.
+    hulls: Vec<Hull>,
     low: DVec2,
     high: DVec2,
+}
+
+/// The box of a piece, and the heights of its ends.
+#[derive(Clone, Copy, Debug)]
+struct Hull {
+    low: DVec2,
+    high: DVec2,
+    ends: [f64; 2],
 }
 
 /// A rational Bézier piece, `(w x, w y, ·, w)`.
@@ -47,10 +56,12 @@ impl Piece {
         [flat(self.net[0]), flat(self.net[self.net.len() - 1])]
     }
 
-    /// Whether its ends lie on different sides of a height.
-    fn passes(&self, y: f64) -> bool {
-        let [first, last] = self.ends();
-        (first.y > y) != (last.y > y)
+    fn hull(&self) -> Hull {
+        Hull {
+            low: self.low,
+            high: self.high,
+            ends: self.ends().map(|end| end.y),
+        }
     }
 
     fn halves(&self) -> [Self; 2] {
@@ -66,6 +77,27 @@ impl Piece {
     }
 }
 
+impl Hull {
+    /// Whether its ends lie on different sides of a height.
+    fn passes(&self, y: f64) -> bool {
+        (self.ends[0] > y) != (self.ends[1] > y)
+    }
+
+    /// Whether a ray from a place towards growing x crosses the piece an odd number of times, if that is clear.
+    fn crossed(&self, at: DVec2, slack: DVec2) -> Option<bool> {
+        if at.y < self.low.y - slack.y
+            || at.y > self.high.y + slack.y
+            || at.x > self.high.x + slack.x
+        {
+            return Some(false);
+        }
+        if at.x < self.low.x - slack.x {
+            return Some(self.passes(at.y));
+        }
+        None
+    }
+}
+
 impl Outline {
     /// Adds a loop of pieces, each beginning where the last one ends; returns how far apart they were at most (in the plane).
     pub(super) fn add(&mut self, pieces: Vec<Net>) -> f64 {
@@ -78,7 +110,9 @@ impl Outline {
             let (w, z) = (net[0].w, net[0].z);
             net[0] = DVec4::new(from.x * w, from.y * w, z, w);
             from = flat(net[net.len() - 1]);
-            self.pieces.push(Piece::new(net));
+            let piece = Piece::new(net);
+            self.hulls.push(piece.hull());
+            self.pieces.push(piece);
         }
         let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         (self.low, self.high) = self.pieces.iter().fold(empty, |(low, high), piece| {
@@ -99,9 +133,9 @@ impl Outline {
             return Some(false);
         }
         let mut inside = false;
-        let mut stack: SmallVec<[(Piece, usize); 8]> = SmallVec::new();
-        for piece in &self.pieces {
-            match crossed(piece, at, slack) {
+        let mut stack: Vec<(Piece, usize)> = Vec::new();
+        for (piece, hull) in self.pieces.iter().zip(&self.hulls) {
+            match hull.crossed(at, slack) {
                 Some(crossed) => inside ^= crossed,
                 None => stack.push((piece.clone(), 0)),
             }
@@ -111,7 +145,7 @@ impl Outline {
                     return None;
                 }
                 for half in piece.halves() {
-                    match crossed(&half, at, slack) {
+                    match half.hull().crossed(at, slack) {
                         Some(crossed) => inside ^= crossed,
                         None => stack.push((half, halvings + 1)),
                     }
@@ -127,7 +161,9 @@ impl Outline {
         let mut crossings: Vec<f64> = Vec::new();
         let mut stack: Vec<(Piece, usize)> = Vec::new();
         for piece in &self.pieces {
-            stack.push((piece.clone(), 0));
+            if y >= piece.low.y && y <= piece.high.y {
+                stack.push((piece.clone(), 0));
+            }
             while let Some((piece, halvings)) = stack.pop() {
                 if y < piece.low.y || y > piece.high.y {
                     continue;
@@ -135,7 +171,7 @@ impl Outline {
                 let size = piece.high - piece.low;
                 if size.cmple(small).all() || halvings == MOST_HALVINGS {
                     let [a, b] = piece.ends();
-                    if piece.passes(y) {
+                    if piece.hull().passes(y) {
                         crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
                     }
                     continue;
@@ -149,17 +185,6 @@ impl Outline {
             .map(|gap| (DVec2::new(0.5 * (gap[0] + gap[1]), y), gap[1] - gap[0]))
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
-}
-
-/// Whether a ray from a place towards growing x crosses a piece an odd number of times, if that is clear.
-fn crossed(piece: &Piece, at: DVec2, slack: DVec2) -> Option<bool> {
-    if at.y < piece.low.y - slack.y || at.y > piece.high.y + slack.y || at.x > piece.high.x + slack.x {
-        return Some(false);
-    }
-    if at.x < piece.low.x - slack.x {
-        return Some(piece.passes(at.y));
-    }
-    None
 }
 
 #[cfg(test)]

@@ -64,7 +64,7 @@ fn reversed(mut net: Net, is_reversed: bool) -> Net {
 }
 
 /// The pieces of an edge in the parameters of a face's surface, in the direction of the loop.
-fn pieces(topology: &Topology, face: &Face, (edge, backwards): (usize, bool)) -> Vec<Net> {
+pub(super) fn pieces(topology: &Topology, face: &Face, (edge, backwards): (usize, bool)) -> Vec<Net> {
     let own = &topology.edges[edge];
     let mut nets: Vec<Net> = if let Some(plane) = topology.sheets[face.sheet].plane {
         let [origin, _, x, y] = frame(plane);
@@ -215,9 +215,11 @@ impl<'a> Scene<'a> {
                     }
                     return None;
                 }
-                if face.holds(&passage, self.near)? {
+                let along = passage.point[line.axis];
+                let is_within = line.range[0] <= along && along <= line.range[1];
+                if is_within && face.holds(&passage, self.near)? {
                     crossings.push(Crossing {
-                        along: passage.point[line.axis],
+                        along,
                         face: own[0].0,
                         forward: sine > 0.0,
                         sine: sine.abs(),
@@ -286,7 +288,7 @@ fn through_plane(&[origin, normal, x, y]: &[DVec3; 4], line: Line) -> Vec<Passag
 /// A stretch of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stretch {
-    /// From and to (m); the first one comes from, and the last one goes to, infinity.
+    /// From and to (m); the first one comes from where the line does, and the last one goes as far.
     pub(super) range: [f64; 2],
     /// The solid that holds it.
     pub(super) solid: Option<usize>,
@@ -305,12 +307,19 @@ pub(super) struct Broken {
     pub(super) leaves: Option<usize>,
 }
 
-/// A line's crossings as stretches, each in one solid.
-pub(super) fn stretches(scene: &Scene<'_>, mut rest: Vec<Crossing>) -> Result<Vec<Stretch>, Broken> {
+/// A line's crossings as stretches, each in one solid. A whole line comes from outside of all solids and ends there; of a part
+/// it is not known where it begins.
+pub(super) fn stretches(
+    scene: &Scene<'_>,
+    line: Line,
+    mut rest: Vec<Crossing>,
+) -> Result<Vec<Stretch>, Broken> {
+    let is_whole = line.range[0] == f64::NEG_INFINITY;
     let mut all = Vec::with_capacity(rest.len() + 1);
+    let first = rest.first().filter(|_| !is_whole);
     let mut here = Stretch {
-        range: [f64::NEG_INFINITY, f64::INFINITY],
-        solid: None,
+        range: line.range,
+        solid: first.and_then(|first| scene.leads(first)[0]),
         faces: [None; 2],
     };
     while let Some(first) = rest.first().copied() {
@@ -332,12 +341,12 @@ pub(super) fn stretches(scene: &Scene<'_>, mut rest: Vec<Crossing>) -> Result<Ve
         here.faces[1] = Some(crossing.face);
         all.push(here);
         here = Stretch {
-            range: [crossing.along, f64::INFINITY],
+            range: [crossing.along, line.range[1]],
             solid: scene.leads(&crossing)[1],
             faces: [Some(crossing.face), None],
         };
     }
-    if here.solid.is_some() {
+    if is_whole && here.solid.is_some() {
         return Err(Broken {
             along: here.range[0],
             within: here.solid,

@@ -110,10 +110,10 @@ mod tests {
             .collect();
         let tree = Tree::new(items.clone());
         for k in 0..60 {
-            let line = Line {
-                axis: k % 3,
-                through: DVec3::splat(0.18 * k as f64),
-            };
+            let mut line = Line::whole(k % 3, DVec3::splat(0.18 * k as f64));
+            if k > 30 {
+                line.range = [2.0, 5.0];
+            }
             let mut found = Vec::new();
             tree.along(line, 0.05, |item| {
                 found.push(*item);
