@@ -14,6 +14,7 @@
 mod banded;
 mod basis;
 mod bezier;
+pub(crate) mod blossom;
 mod bounds;
 mod closest;
 mod curve;

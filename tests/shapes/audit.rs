@@ -197,9 +197,11 @@ fn samples(topology: &Topology, face: &Face) -> Vec<(DVec3, DVec3)> {
         .iter()
         .map(|own| polygon(topology, face, own))
         .collect();
-    let range = polygons[0].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
-        [low.min(p.y), high.max(p.y)]
-    });
+    let range = polygons[0]
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+            [low.min(p.y), high.max(p.y)]
+        });
     let sample = |k: i32| {
         let y = range[0] + (f64::from(k) * 0.618_033_988_749_895).fract() * (range[1] - range[0]);
         let mut crossings = Vec::new();

@@ -1,13 +1,13 @@
 //! Whether finished topology is closed, by its tables alone: loops, solids, and edges on their surfaces.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
-use super::scene::pieces;
+use super::scene::Scene;
 use super::spline::Spline;
 use super::{Check, Prover, TOLERANCE};
 use crate::nurbs::Surface;
-use crate::partition::{Edge, Face, Topology};
+use crate::partition::{Edge, Topology};
 
 /// Where in a span an edge is measured: at no place that its making prefers.
 const PART: f64 = 0.414_213_562;
@@ -26,13 +26,22 @@ impl Prover<'_> {
                     if backwards { [to, from] } else { [from, to] }
                 };
                 let after = own.iter().cycle().skip(1);
-                let gap = own.iter().zip(after).find(|(a, b)| ends(a)[1] != ends(b)[0]);
+                let gap = own
+                    .iter()
+                    .zip(after)
+                    .find(|(a, b)| ends(a)[1] != ends(b)[0]);
                 if own.is_empty() {
-                    wrong.push(format!("a loop of {} is empty", self.volumes_of(topology, index)));
+                    wrong.push(format!(
+                        "a loop of {} is empty",
+                        self.volumes_of(topology, index)
+                    ));
                 }
                 if let Some(((edge, _), _)) = gap {
                     let at = place(&topology.edges[*edge]);
-                    wrong.push(format!("a loop of {} is open at {at:.4}", self.volumes_of(topology, index)));
+                    wrong.push(format!(
+                        "a loop of {} is open at {at:.4}",
+                        self.volumes_of(topology, index)
+                    ));
                 }
             }
         }
@@ -68,7 +77,8 @@ impl Prover<'_> {
     }
 
     /// The first loop of a face is the outer one, and so is the first shell of a solid: readers take them so.
-    pub(super) fn nesting(&self, topology: &Topology) -> Check {
+    pub(super) fn nesting(&self, scene: &Scene<'_>) -> Check {
+        let topology = scene.topology;
         let mut wrong = Vec::new();
         let flux = |shell: &[(usize, bool)]| {
             let signed = |&(face, reversed): &(usize, bool)| {
@@ -85,13 +95,12 @@ impl Prover<'_> {
                 wrong.push(format!("the shells of {}", self.name(solid.label)));
             }
         }
-        for (index, face) in topology.faces.iter().enumerate() {
-            let areas = loop_areas(topology, face);
-            let is_right = areas
-                .split_first()
-                .is_some_and(|(outer, holes)| holes.iter().all(|hole| outer * hole < 0.0 && outer.abs() > hole.abs()));
-            if !is_right {
-                wrong.push(format!("the loops of a face of {}", self.volumes_of(topology, index)));
+        for face in 0..topology.faces.len() {
+            if !scene.is_in_order(face) {
+                wrong.push(format!(
+                    "the loops of a face of {}",
+                    self.volumes_of(topology, face)
+                ));
             }
         }
         Check {
@@ -116,16 +125,24 @@ impl Prover<'_> {
         let farthest = (0..topology.edges.len())
             .into_par_iter()
             .map(|edge| (off(topology, edge, &beside[edge]), edge))
-            .reduce(|| (0.0, 0), |a, b| if b.0 > a.0 || b.0.is_nan() { b } else { a });
+            .reduce(
+                || (0.0, 0),
+                |a, b| if b.0 > a.0 || b.0.is_nan() { b } else { a },
+            );
         let said = topology.edges.iter().map(|edge| edge.deviation);
         let gaps = topology.vertices.iter().map(|vertex| vertex.gap);
         let said = said.chain(gaps).fold(0.0, f64::max);
-        let at = topology.edges.get(farthest.1).map_or(DVec3::ZERO, |edge| {
-            topology.vertices[edge.ends[0]].point
-        });
+        let at = topology
+            .edges
+            .get(farthest.1)
+            .map_or(DVec3::ZERO, |edge| topology.vertices[edge.ends[0]].point);
         Check {
             name: "distance of edges from their surfaces and vertices (m)",
-            measured: if farthest.0 > said || farthest.0.is_nan() { farthest.0 } else { said },
+            measured: if farthest.0 > said || farthest.0.is_nan() {
+                farthest.0
+            } else {
+                said
+            },
             bound: TOLERANCE.max(1e-9 * (self.plan.high() - self.plan.low()).length()),
             detail: format!("{} edges, farthest that from {at:.4}", topology.edges.len()),
         }
@@ -133,25 +150,11 @@ impl Prover<'_> {
 
     fn volumes_of(&self, topology: &Topology, face: usize) -> String {
         let names = topology.faces[face].labels.iter().flatten();
-        names.map(|label| self.name(*label)).collect::<Vec<_>>().join(" / ")
+        names
+            .map(|label| self.name(*label))
+            .collect::<Vec<_>>()
+            .join(" / ")
     }
-}
-
-/// Signed areas of a face's loops in the parameters of its surface, by the control polygons of its edges' pieces.
-fn loop_areas(topology: &Topology, face: &Face) -> Vec<f64> {
-    let area = |own: &Vec<(usize, bool)>| {
-        let nets = own.iter().flat_map(|half| pieces(topology, face, *half));
-        let points: Vec<DVec2> = nets
-            .flatten()
-            .map(|h| DVec2::new(h.x, h.y) / h.w)
-            .collect();
-        let Some(&origin) = points.first() else { return 0.0 };
-        let pairs = points.iter().zip(points.iter().cycle().skip(1));
-        pairs
-            .map(|(a, b)| 0.5 * (*a - origin).perp_dot(*b - origin))
-            .sum::<f64>()
-    };
-    face.loops.iter().map(area).collect()
 }
 
 /// Farthest of an edge from the surfaces of faces that run along it one way or the other, and from its vertices (m).
@@ -166,11 +169,19 @@ fn off(topology: &Topology, index: usize, beside: &[(usize, bool)]) -> f64 {
     }
     let breaks = space.breaks(edge.range);
     let mut places = vec![edge.range[0], edge.range[1]];
-    places.extend(breaks.windows(2).map(|pair| pair[0] + PART * (pair[1] - pair[0])));
+    places.extend(
+        breaks
+            .windows(2)
+            .map(|pair| pair[0] + PART * (pair[1] - pair[0])),
+    );
     let points: Vec<DVec3> = places.iter().map(|t| space.point(*t)).collect();
     let mut farthest: f64 = 0.0;
     let mut note = |distance: f64| {
-        farthest = if distance.is_nan() { f64::INFINITY } else { farthest.max(distance) };
+        farthest = if distance.is_nan() {
+            f64::INFINITY
+        } else {
+            farthest.max(distance)
+        };
     };
     for (point, end) in points.iter().zip(edge.ends) {
         note(point.distance(topology.vertices[end].point));
@@ -178,7 +189,9 @@ fn off(topology: &Topology, index: usize, beside: &[(usize, bool)]) -> f64 {
     for &(at, backwards) in beside {
         let sheet = &topology.sheets[at];
         if let Some([origin, normal, _]) = sheet.plane {
-            points.iter().for_each(|point| note(normal.dot(*point - origin).abs()));
+            points
+                .iter()
+                .for_each(|point| note(normal.dot(*point - origin).abs()));
             continue;
         }
         let Some(image) = image(topology, edge, at, backwards) else {
@@ -202,7 +215,11 @@ fn off_pole(topology: &Topology, edge: &Edge, beside: &[(usize, bool)]) -> f64 {
         for t in edge.range {
             let there = on_surface(&topology.sheets[at].surface, image.point(t));
             let apart = there.distance(point);
-            farthest = if apart.is_nan() { f64::INFINITY } else { farthest.max(apart) };
+            farthest = if apart.is_nan() {
+                f64::INFINITY
+            } else {
+                farthest.max(apart)
+            };
         }
     }
     farthest
@@ -222,7 +239,12 @@ fn on_surface(surface: &Surface, at: DVec3) -> DVec3 {
 }
 
 /// An edge's curve in the parameters of a surface, where a face runs along it one way or the other.
-fn image(topology: &Topology, edge: &Edge, sheet: usize, backwards: bool) -> Option<Spline> {
+fn image<'a>(
+    topology: &'a Topology,
+    edge: &Edge,
+    sheet: usize,
+    backwards: bool,
+) -> Option<Spline<'a>> {
     let on = edge.on.iter().find(|on| on.sheet == sheet)?;
     let image = match on.reversed {
         Some(image) if backwards => image,

@@ -193,11 +193,9 @@ fn damage(kind: Kind, site: usize, topology: &mut Topology, size: f64) -> Option
                 topology.solids[one].shells.extend(gone.shells);
             })
         }
-        Kind::FlipSide
-        | Kind::FlipFace
-        | Kind::DoubleFace
-        | Kind::CopyFace
-        | Kind::WrongSolid => of_sides(kind, site, topology),
+        Kind::FlipSide | Kind::FlipFace | Kind::DoubleFace | Kind::CopyFace | Kind::WrongSolid => {
+            of_sides(kind, site, topology)
+        }
         Kind::DropEdge | Kind::TurnEdge | Kind::SwapLoops => of_loops(kind, site, topology),
         _ => {
             let share = SHARES[site % SHARES.len()];
@@ -249,8 +247,8 @@ fn of_sides(kind: Kind, face: usize, topology: &mut Topology) -> Option<()> {
         }
         _ => {
             let [solid, shell, place] = uses[0];
-            let wrong = (0..topology.solids.len())
-                .find(|other| uses.iter().all(|own| own[0] != *other))?;
+            let wrong =
+                (0..topology.solids.len()).find(|other| uses.iter().all(|own| own[0] != *other))?;
             let used = topology.solids[solid].shells[shell].remove(place);
             topology.solids[wrong].shells[0].push(used);
         }
@@ -330,7 +328,10 @@ fn merge(topology: &mut Topology, gone: usize, heir: usize) -> Option<()> {
         shells.map(|used| used.0).collect()
     };
     let heirs = of(heir);
-    let between: Vec<usize> = of(gone).into_iter().filter(|face| heirs.contains(face)).collect();
+    let between: Vec<usize> = of(gone)
+        .into_iter()
+        .filter(|face| heirs.contains(face))
+        .collect();
     if gone == heir || between.is_empty() {
         return None;
     }
@@ -350,7 +351,10 @@ fn moved(kind: Kind, at: usize, topology: &mut Topology, by: f64) -> Option<()> 
         Kind::MoveSurface => {
             let sheet = &mut topology.sheets[at];
             let ([u0, u1], [v0, v1]) = {
-                let (u, v) = (sheet.surface.knots_u().domain(), sheet.surface.knots_v().domain());
+                let (u, v) = (
+                    sheet.surface.knots_u().domain(),
+                    sheet.surface.knots_v().domain(),
+                );
                 ([u.0, u.1], [v.0, v.1])
             };
             let normal = sheet.surface.normal(0.5 * (u0 + u1), 0.5 * (v0 + v1))?;
@@ -442,12 +446,20 @@ fn move_island(topology: &mut Topology, solid: usize, by: DVec3) -> Option<()> {
     if shells.filter(is_void).count() != 2 {
         return None;
     }
-    let mut sheets: Vec<usize> = faces.iter().map(|face| topology.faces[*face].sheet).collect();
-    let halves = faces.iter().flat_map(|face| topology.faces[*face].loops.iter().flatten());
+    let mut sheets: Vec<usize> = faces
+        .iter()
+        .map(|face| topology.faces[*face].sheet)
+        .collect();
+    let halves = faces
+        .iter()
+        .flat_map(|face| topology.faces[*face].loops.iter().flatten());
     let mut edges: Vec<usize> = halves.map(|half| half.0).collect();
     edges.sort_unstable();
     edges.dedup();
-    let mut vertices: Vec<usize> = edges.iter().flat_map(|edge| topology.edges[*edge].ends).collect();
+    let mut vertices: Vec<usize> = edges
+        .iter()
+        .flat_map(|edge| topology.edges[*edge].ends)
+        .collect();
     vertices.sort_unstable();
     vertices.dedup();
     sheets.sort_unstable();

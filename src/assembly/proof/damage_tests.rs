@@ -60,7 +60,8 @@ impl Right {
     fn of(name: &str, source: &Source) -> Self {
         let model = Model::check(source);
         let model = model.unwrap_or_else(|defects| panic!("{defects}"));
-        let subject = Subject::new(Realisation::new(&model, &Selection::default()).unwrap()).unwrap();
+        let subject =
+            Subject::new(Realisation::new(&model, &Selection::default()).unwrap()).unwrap();
         let options = Options {
             engine: Engine::Partition,
             child: None,
@@ -114,7 +115,11 @@ impl Right {
         };
         for step in prover.steps() {
             let made = step().unwrap();
-            found.extend(made.iter().filter(|check| !check.holds()).map(|check| check.name));
+            found.extend(
+                made.iter()
+                    .filter(|check| !check.holds())
+                    .map(|check| check.name),
+            );
             if !found.is_empty() && !all {
                 break;
             }
@@ -133,7 +138,11 @@ fn the_fast_proof_finds_every_one_of_a_thousand_damages_and_none_where_there_is_
     let mut missed = Vec::new();
     for name in MODELS {
         let right = Right::new(name);
-        assert_eq!(right.finders(right.made.topology.clone(), true), [""; 0], "{name}");
+        assert_eq!(
+            right.finders(right.made.topology.clone(), true),
+            [""; 0],
+            "{name}"
+        );
         for kind in KINDS {
             for (at, topology) in right.damages(kind).into_iter().enumerate() {
                 count += 1;
@@ -143,7 +152,11 @@ fn the_fast_proof_finds_every_one_of_a_thousand_damages_and_none_where_there_is_
             }
         }
     }
-    assert!(missed.is_empty(), "{} of {count}: {missed:#?}", missed.len());
+    assert!(
+        missed.is_empty(),
+        "{} of {count}: {missed:#?}",
+        missed.len()
+    );
     assert!(count >= 1000, "only {count} damages");
 }
 
@@ -156,8 +169,14 @@ fn lines_alone_find_missed_curves(right: &Right) {
     assert!(!missed.is_empty());
     for topology in missed {
         let found = right.finders(topology, true);
-        assert!(found.contains(&FOLLOW) || found.contains(&BELONG), "{found:?}");
-        assert!(!found.contains(&"edges at which loops or solids are open"), "{found:?}");
+        assert!(
+            found.contains(&FOLLOW) || found.contains(&BELONG),
+            "{found:?}"
+        );
+        assert!(
+            !found.contains(&"edges at which loops or solids are open"),
+            "{found:?}"
+        );
     }
 }
 
@@ -169,9 +188,14 @@ fn a_closed_curve_of_two_horizons_that_was_missed_is_found_though_everything_fit
 #[test]
 fn a_small_island_where_two_horizons_cross_hides_between_no_columns() {
     // Both bent by more than the island is deep; it takes a thousandth of the plan.
-    let height = |i: u32, j: u32| -40.0 + (0.7 * f64::from(i)).sin() + 0.4 * (0.5 * f64::from(j)).cos();
+    let height =
+        |i: u32, j: u32| -40.0 + (0.7 * f64::from(i)).sin() + 0.4 * (0.5 * f64::from(j)).cos();
     let grid = |change: &dyn Fn(u32, u32) -> f64| {
-        let row = |j: u32| (0..21).map(|i| height(i, j) + change(i, j)).collect::<Vec<_>>();
+        let row = |j: u32| {
+            (0..21)
+                .map(|i| height(i, j) + change(i, j))
+                .collect::<Vec<_>>()
+        };
         format!("{:?}", (0..21).map(row).collect::<Vec<_>>())
     };
     for (i, j) in [(7, 13), (16, 4)] {
@@ -188,7 +212,10 @@ fn a_small_island_where_two_horizons_cross_hides_between_no_columns() {
             horizon("lower", &lower),
             horizon("upper", &upper)
         );
-        let right = Right::of("island", &Source::from_text("island.toml", &text, Format::Toml));
+        let right = Right::of(
+            "island",
+            &Source::from_text("island.toml", &text, Format::Toml),
+        );
         assert_eq!(right.finders(right.made.topology.clone(), true), [""; 0]);
         lines_alone_find_missed_curves(&right);
     }

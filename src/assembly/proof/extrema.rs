@@ -11,7 +11,7 @@ use crate::features::side::{HorizonSheet, Side};
 use crate::model::plan::AssemblyPlan;
 
 /// Fewest and most cells of the lattice each way.
-const CELLS: [usize; 2] = [8, 96];
+const CELLS: [usize; 2] = [8, 64];
 /// Up to so many heights all pairs are compared; of more, neighbours by their mean elevation.
 const ALL_PAIRS: usize = 12;
 /// Extrema of each pair.
@@ -61,7 +61,11 @@ pub(super) fn columns(plan: &AssemblyPlan, most: usize) -> Vec<(DVec2, f64)> {
             k + 2
         };
         for &b in &order[(k + 1).min(order.len())..beside.min(order.len())] {
-            let difference: Vec<f64> = heights[a].iter().zip(&heights[b]).map(|(a, b)| b - a).collect();
+            let difference: Vec<f64> = heights[a]
+                .iter()
+                .zip(&heights[b])
+                .map(|(a, b)| b - a)
+                .collect();
             let mut own = extrema(&difference, cells);
             own.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             found.extend(own.into_iter().take(OF_PAIR));
@@ -109,7 +113,9 @@ mod tests {
     #[test]
     fn every_dip_and_every_rise_of_a_lattice_is_found_with_its_size() {
         let cells = 40;
-        let bump = |x: f64, y: f64, at: (f64, f64)| (-((x - at.0).powi(2) + (y - at.1).powi(2)) / 9.0).exp();
+        let bump = |x: f64, y: f64, at: (f64, f64)| {
+            (-((x - at.0).powi(2) + (y - at.1).powi(2)) / 9.0).exp()
+        };
         let value = |k: usize| {
             let (x, y) = ((k % cells) as f64, (k / cells) as f64);
             2.0 + 0.01 * x - 2.5 * bump(x, y, (11.0, 30.0)) + bump(x, y, (28.0, 9.0))

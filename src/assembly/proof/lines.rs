@@ -41,14 +41,14 @@ const QUESTIONS: usize = 2_000_000;
 const LEAST_COLUMNS: usize = 5;
 
 /// The surfaces of all bodies and of the domain's own base and top, whole.
-struct Bodies {
-    targets: Vec<Target>,
+struct Bodies<'a> {
+    targets: Vec<Target<'a>>,
     tree: Tree<(usize, usize)>,
 }
 
-impl Bodies {
-    fn new(surfaces: &[Surface]) -> Self {
-        let targets: Vec<Target> = surfaces.par_iter().map(Target::new).collect();
+impl<'a> Bodies<'a> {
+    fn new(surfaces: &'a [Surface]) -> Self {
+        let targets: Vec<Target<'a>> = surfaces.par_iter().map(Target::new).collect();
         let items = targets.iter().enumerate().flat_map(|(index, target)| {
             let patches = target.patches().enumerate();
             patches.map(move |(patch, (bounds, _))| (bounds, (index, patch)))
@@ -117,7 +117,9 @@ fn some(words: &[String]) -> String {
 impl Prover<'_> {
     /// Follows lines through finished topology.
     pub(super) fn lines(&self, scene: &Scene<'_>) -> Result<Vec<Check>, ProofError> {
-        let surfaces = self.surfaces().map_err(|error| ProofError::Kernel(error.to_string()))?;
+        let surfaces = self
+            .surfaces()
+            .map_err(|error| ProofError::Kernel(error.to_string()))?;
         let bodies = Bodies::new(&surfaces);
         let lines = self.thorough_lines(&surfaces);
         let thorough = lines
@@ -146,7 +148,11 @@ impl Prover<'_> {
             },
         };
         Ok(vec![
-            check("lines along which solids do not follow each other", count, &all.broken),
+            check(
+                "lines along which solids do not follow each other",
+                count,
+                &all.broken,
+            ),
             check(
                 "points along lines that belong to another volume than their solid",
                 format!("{} points", all.points),
@@ -205,8 +211,13 @@ impl Prover<'_> {
         let (low, high) = (self.plan.low(), self.plan.high());
         let mut places = Vec::new();
         for surface in surfaces {
-            let [u, v] = [surface.knots_u(), surface.knots_v()]
-                .map(|knots| knots.distinct().iter().map(|knot| knot.0).collect::<Vec<_>>());
+            let [u, v] = [surface.knots_u(), surface.knots_v()].map(|knots| {
+                knots
+                    .distinct()
+                    .iter()
+                    .map(|knot| knot.0)
+                    .collect::<Vec<_>>()
+            });
             for u in u.windows(2) {
                 for v in v.windows(2) {
                     places.push((surface, [u[0], u[1]], [v[0], v[1]]));
@@ -235,7 +246,7 @@ impl Prover<'_> {
     }
 
     /// What the first clear line of some finds.
-    fn first_clear(&self, scene: &Scene<'_>, bodies: &Bodies, tries: &[Line]) -> Findings {
+    fn first_clear(&self, scene: &Scene<'_>, bodies: &Bodies<'_>, tries: &[Line]) -> Findings {
         let mut found = Findings::default();
         for line in tries {
             if self.follow(scene, bodies, *line, Purpose::All, &mut found) {
@@ -250,7 +261,7 @@ impl Prover<'_> {
     fn through_face(
         &self,
         scene: &Scene<'_>,
-        bodies: &Bodies,
+        bodies: &Bodies<'_>,
         face: usize,
         each: usize,
     ) -> Findings {
@@ -276,7 +287,7 @@ impl Prover<'_> {
     fn follow(
         &self,
         scene: &Scene<'_>,
-        bodies: &Bodies,
+        bodies: &Bodies<'_>,
         line: Line,
         purpose: Purpose,
         found: &mut Findings,
@@ -289,7 +300,10 @@ impl Prover<'_> {
             && !crossings.iter().any(|crossing| crossing.face == face)
         {
             let name = self.face_name(scene, face);
-            found.broken.push(format!("a face of {name} is not where its edges are, at {:.4}", line.through));
+            found.broken.push(format!(
+                "a face of {name} is not where its edges are, at {:.4}",
+                line.through
+            ));
             return true;
         }
         match stretches(scene, line, crossings) {
@@ -306,7 +320,7 @@ impl Prover<'_> {
     fn ask_all(
         &self,
         scene: &Scene<'_>,
-        bodies: &Bodies,
+        bodies: &Bodies<'_>,
         line: Line,
         stretches: &[Stretch],
         found: &mut Findings,
@@ -381,9 +395,13 @@ impl Prover<'_> {
         let hidden = self.hidden();
         let is_on_boundary = self.plan.extent.is_near_skin(point, hidden)
             || self.owners.near(point, hidden).next().is_some();
-        if !is_on_boundary || owner.is_some() != label.is_some() && !self.plan.extent.is_near_skin(point, hidden) {
+        if !is_on_boundary
+            || owner.is_some() != label.is_some() && !self.plan.extent.is_near_skin(point, hidden)
+        {
             let [owner, label] = [owner, label].map(|one| self.whose(one));
-            found.wrong.push(format!("{owner} at {point:.4}, in a solid of {label}"));
+            found
+                .wrong
+                .push(format!("{owner} at {point:.4}, in a solid of {label}"));
         }
     }
 

@@ -183,13 +183,14 @@ impl Prover<'_> {
         let topology = self.evidence.topology.as_ref();
         if let Some(topology) = topology {
             steps.push(Box::new(|| {
-                Ok(vec![
-                    self.closure(topology),
-                    self.nesting(topology),
-                    self.deviation(topology),
-                ])
+                Ok(vec![self.closure(topology), self.deviation(topology)])
             }));
-            steps.push(Box::new(|| self.lines(&self.scene(topology))));
+            steps.push(Box::new(|| {
+                let scene = self.scene(topology);
+                let mut checks = vec![self.nesting(&scene)];
+                checks.extend(self.lines(&scene)?);
+                Ok(checks)
+            }));
         }
         steps.push(Box::new(|| Ok(self.sampled_volumes())));
         // Lines through every face have asked what lies beside it.

@@ -1,67 +1,116 @@
 //! The outline of a face in the plane of its parameters, by its true curves: whether a place lies within it.
 //!
 //! A ray crosses a Bézier piece as often, up to an even number, as its ends say, if the hull of its control points lies
-//! beyond the place; so nothing is solved, and only pieces whose hull holds the place are halved. What is still there when it is
-//! smaller than a given slack is the border itself: no answer.
+//! beyond the place; so nothing is solved, and only pieces whose hull holds the place are made and halved. What is still there
+//! when it is smaller than a given slack is the border itself: no answer.
 
-use glam::{DVec2, DVec4};
+use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 
-use super::spline::Net;
+use super::spline::{Net, Spline};
 
 /// Halvings of one piece until its hull is as small as rounding.
 const MOST_HALVINGS: usize = 60;
 /// Pieces this much smaller than an outline are straight, where points inside of it are looked for.
 const STRAIGHT: f64 = 1e-4;
 
+/// An edge as a loop runs along it.
+pub(super) struct Course<'a> {
+    pub(super) spline: Spline<'a>,
+    /// The part of it.
+    pub(super) range: [f64; 2],
+    /// Whether the loop runs from its end to its start.
+    pub(super) backwards: bool,
+    /// Of a curve in space, the plane that it is seen in: origin and two directions.
+    pub(super) plane: Option<[DVec3; 3]>,
+}
+
+impl Course<'_> {
+    /// The piece over a part of a span, in the direction of the loop.
+    pub(super) fn net(&self, range: [f64; 2]) -> Net {
+        let mut net = self.spline.piece(range);
+        if let Some([origin, x, y]) = self.plane {
+            for h in &mut net {
+                let p = h.xyz() - origin * h.w;
+                *h = DVec4::new(p.dot(x), p.dot(y), 0.0, h.w);
+            }
+        }
+        if self.backwards {
+            net.reverse();
+        }
+        net
+    }
+
+    /// Its parts by spans, in the direction of the loop.
+    pub(super) fn parts(&self) -> Vec<[f64; 2]> {
+        let breaks = self.spline.breaks(self.range);
+        let mut parts: Vec<[f64; 2]> = breaks.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+        if self.backwards {
+            parts.reverse();
+        }
+        parts
+    }
+}
+
 /// All loops of a face.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Outline {
+#[derive(Default)]
+pub(super) struct Outline<'a> {
+    courses: Vec<Course<'a>>,
     pieces: Vec<Piece>,
-    /// Where each piece is: most are told by that alone.
-    hulls: Vec<Hull>,
+    /// By loop: the signed area of its control polygon.
+    areas: Vec<f64>,
     low: DVec2,
     high: DVec2,
 }
 
-/// The box of a piece, and the heights of its ends.
+/// Where a piece of a course is: most is told by that alone.
 #[derive(Clone, Copy, Debug)]
-struct Hull {
+struct Piece {
     low: DVec2,
     high: DVec2,
-    ends: [f64; 2],
+    ends: [DVec2; 2],
+    course: usize,
+    range: [f64; 2],
 }
 
-/// A rational Bézier piece, `(w x, w y, ·, w)`.
-#[derive(Clone, Debug)]
-struct Piece {
+/// A Bézier piece `(w x, w y, ·, w)` with its box.
+struct Part {
     net: Net,
     low: DVec2,
     high: DVec2,
+    halvings: usize,
 }
 
 fn flat(h: DVec4) -> DVec2 {
     DVec2::new(h.x, h.y) / h.w
 }
 
-impl Piece {
-    fn new(net: Net) -> Self {
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (low, high) = net.iter().map(|h| flat(*h)).fold(empty, |(low, high), p| {
-            (low.min(p), high.max(p))
-        });
-        Self { net, low, high }
+fn around(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
+    points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), p| {
+        (low.min(p), high.max(p))
+    })
+}
+
+/// Whether a ray from a place towards growing x crosses a piece an odd number of times, if its box tells.
+fn crossed((low, high): (DVec2, DVec2), ends: [f64; 2], at: DVec2, slack: DVec2) -> Option<bool> {
+    if at.y < low.y - slack.y || at.y > high.y + slack.y || at.x > high.x + slack.x {
+        return Some(false);
+    }
+    (at.x < low.x - slack.x).then_some((ends[0] > at.y) != (ends[1] > at.y))
+}
+
+impl Part {
+    fn new(net: Net, halvings: usize) -> Self {
+        let (low, high) = around(net.iter().map(|h| flat(*h)));
+        Self {
+            net,
+            low,
+            high,
+            halvings,
+        }
     }
 
     fn ends(&self) -> [DVec2; 2] {
         [flat(self.net[0]), flat(self.net[self.net.len() - 1])]
-    }
-
-    fn hull(&self) -> Hull {
-        Hull {
-            low: self.low,
-            high: self.high,
-            ends: self.ends().map(|end| end.y),
-        }
     }
 
     fn halves(&self) -> [Self; 2] {
@@ -73,52 +122,66 @@ impl Piece {
             }
             low[round] = high[0];
         }
-        [low, high].map(Self::new)
+        [low, high].map(|net| Self::new(net, self.halvings + 1))
     }
 }
 
-impl Hull {
-    /// Whether its ends lie on different sides of a height.
-    fn passes(&self, y: f64) -> bool {
-        (self.ends[0] > y) != (self.ends[1] > y)
+impl<'a> Outline<'a> {
+    /// Adds a loop of edges.
+    pub(super) fn add(&mut self, courses: Vec<Course<'a>>) {
+        let first = self.pieces.len();
+        let (mut area, mut corners) = (0.0, None);
+        for course in courses {
+            for range in course.parts() {
+                let net = course.net(range);
+                for p in net.iter().map(|h| flat(*h)) {
+                    let (origin, last) = corners.unwrap_or((p, p));
+                    area += 0.5 * (last - origin).perp_dot(p - origin);
+                    corners = Some((origin, p));
+                }
+                let (low, high) = around(net.iter().map(|h| flat(*h)));
+                self.pieces.push(Piece {
+                    low,
+                    high,
+                    ends: [flat(net[0]), flat(net[net.len() - 1])],
+                    course: self.courses.len(),
+                    range,
+                });
+            }
+            self.courses.push(course);
+        }
+        self.areas.push(area);
+        // What rounding leaves between two pieces would be a hole in the outline.
+        let own = &mut self.pieces[first..];
+        let Some(mut from) = own.last().map(|last| last.ends[1]) else {
+            return;
+        };
+        for piece in own {
+            piece.ends[0] = from;
+            (piece.low, piece.high) = (piece.low.min(from), piece.high.max(from));
+            from = piece.ends[1];
+        }
+        let boxes = self.pieces.iter().flat_map(|piece| [piece.low, piece.high]);
+        (self.low, self.high) = around(boxes);
     }
 
-    /// Whether a ray from a place towards growing x crosses the piece an odd number of times, if that is clear.
-    fn crossed(&self, at: DVec2, slack: DVec2) -> Option<bool> {
-        if at.y < self.low.y - slack.y
-            || at.y > self.high.y + slack.y
-            || at.x > self.high.x + slack.x
-        {
-            return Some(false);
+    /// A piece as it is.
+    fn part(&self, piece: &Piece) -> Part {
+        let mut net = self.courses[piece.course].net(piece.range);
+        let last = net.len() - 1;
+        for (at, end) in [(0, piece.ends[0]), (last, piece.ends[1])] {
+            let h = &mut net[at];
+            (h.x, h.y) = (end.x * h.w, end.y * h.w);
         }
-        if at.x < self.low.x - slack.x {
-            return Some(self.passes(at.y));
-        }
-        None
+        Part::new(net, 0)
     }
-}
 
-impl Outline {
-    /// Adds a loop of pieces, each beginning where the last one ends; returns how far apart they were at most (in the plane).
-    pub(super) fn add(&mut self, pieces: Vec<Net>) -> f64 {
-        let Some(last) = pieces.last() else { return 0.0 };
-        let mut from = flat(last[last.len() - 1]);
-        let mut most: f64 = 0.0;
-        for mut net in pieces {
-            // What rounding leaves between two pieces would be a hole in the outline.
-            most = most.max(from.distance(flat(net[0])));
-            let (w, z) = (net[0].w, net[0].z);
-            net[0] = DVec4::new(from.x * w, from.y * w, z, w);
-            from = flat(net[net.len() - 1]);
-            let piece = Piece::new(net);
-            self.hulls.push(piece.hull());
-            self.pieces.push(piece);
-        }
-        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        (self.low, self.high) = self.pieces.iter().fold(empty, |(low, high), piece| {
-            (low.min(piece.low), high.max(piece.high))
-        });
-        most
+    /// Whether the first loop is the outer one: it runs around more than any other one, and these run the other way.
+    pub(super) fn is_in_order(&self) -> bool {
+        self.areas.split_first().is_some_and(|(outer, holes)| {
+            let is_hole = |hole: &f64| outer * hole < 0.0 && outer.abs() > hole.abs();
+            holes.iter().all(is_hole)
+        })
     }
 
     /// The corners of a box that holds it.
@@ -133,21 +196,23 @@ impl Outline {
             return Some(false);
         }
         let mut inside = false;
-        let mut stack: Vec<(Piece, usize)> = Vec::new();
-        for (piece, hull) in self.pieces.iter().zip(&self.hulls) {
-            match hull.crossed(at, slack) {
+        let mut stack: Vec<Part> = Vec::new();
+        for piece in &self.pieces {
+            let ends = piece.ends.map(|end| end.y);
+            match crossed((piece.low, piece.high), ends, at, slack) {
                 Some(crossed) => inside ^= crossed,
-                None => stack.push((piece.clone(), 0)),
+                None => stack.push(self.part(piece)),
             }
-            while let Some((piece, halvings)) = stack.pop() {
-                let is_border = (piece.high - piece.low).cmple(slack).all();
-                if is_border || halvings == MOST_HALVINGS {
+            while let Some(part) = stack.pop() {
+                let is_border = (part.high - part.low).cmple(slack).all();
+                if is_border || part.halvings == MOST_HALVINGS {
                     return None;
                 }
-                for half in piece.halves() {
-                    match half.hull().crossed(at, slack) {
+                for half in part.halves() {
+                    let ends = half.ends().map(|end| end.y);
+                    match crossed((half.low, half.high), ends, at, slack) {
                         Some(crossed) => inside ^= crossed,
-                        None => stack.push((half, halvings + 1)),
+                        None => stack.push(half),
                     }
                 }
             }
@@ -155,35 +220,35 @@ impl Outline {
         Some(inside)
     }
 
-    /// The middle of the widest gap within it at a height, with the gap's width.
-    pub(super) fn widest(&self, y: f64) -> Option<(DVec2, f64)> {
+    /// The middle of the widest gap within it at a height.
+    pub(super) fn widest(&self, y: f64) -> Option<DVec2> {
         let small = STRAIGHT * (self.high - self.low);
         let mut crossings: Vec<f64> = Vec::new();
-        let mut stack: Vec<(Piece, usize)> = Vec::new();
+        let mut stack: Vec<Part> = Vec::new();
         for piece in &self.pieces {
             if y >= piece.low.y && y <= piece.high.y {
-                stack.push((piece.clone(), 0));
+                stack.push(self.part(piece));
             }
-            while let Some((piece, halvings)) = stack.pop() {
-                if y < piece.low.y || y > piece.high.y {
+            while let Some(part) = stack.pop() {
+                if y < part.low.y || y > part.high.y {
                     continue;
                 }
-                let size = piece.high - piece.low;
-                if size.cmple(small).all() || halvings == MOST_HALVINGS {
-                    let [a, b] = piece.ends();
-                    if piece.hull().passes(y) {
+                let is_straight = (part.high - part.low).cmple(small).all();
+                if is_straight || part.halvings == MOST_HALVINGS {
+                    let [a, b] = part.ends();
+                    if (a.y > y) != (b.y > y) {
                         crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
                     }
                     continue;
                 }
-                stack.extend(piece.halves().map(|half| (half, halvings + 1)));
+                stack.extend(part.halves());
             }
         }
         crossings.sort_by(f64::total_cmp);
         crossings
             .chunks_exact(2)
-            .map(|gap| (DVec2::new(0.5 * (gap[0] + gap[1]), y), gap[1] - gap[0]))
-            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))
+            .map(|gap| DVec2::new(0.5 * (gap[0] + gap[1]), y))
     }
 }
 
@@ -191,36 +256,57 @@ impl Outline {
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
+    use crate::nurbs::{Curve, KnotVector};
+    use crate::partition::CurveShape;
 
-    /// A unit circle in four rational quadratics, as a loop.
-    fn circle(middle: DVec2, radius: f64) -> Vec<Net> {
+    /// A circle in four rational quadratics.
+    fn circle(middle: DVec2, radius: f64) -> CurveShape {
         let w = 0.5_f64.sqrt();
-        let corner = |k: usize| {
-            let all = [
-                (1.0, 0.0),
-                (1.0, 1.0),
-                (0.0, 1.0),
-                (-1.0, 1.0),
-                (-1.0, 0.0),
-                (-1.0, -1.0),
-                (0.0, -1.0),
-                (1.0, -1.0),
-            ];
-            let (x, y) = all[k % 8];
-            let w = if k % 2 == 0 { 1.0 } else { w };
-            let p = middle + radius * DVec2::new(x, y);
-            DVec4::new(p.x * w, p.y * w, 0.0, w)
+        let corners = [
+            (1.0, 0.0),
+            (1.0, 1.0),
+            (0.0, 1.0),
+            (-1.0, 1.0),
+            (-1.0, 0.0),
+            (-1.0, -1.0),
+            (0.0, -1.0),
+            (1.0, -1.0),
+            (1.0, 0.0),
+        ];
+        let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
+        let points = corners.map(|(x, y)| (middle + radius * DVec2::new(x, y)).extend(7.0));
+        let weights = (0..9).map(|k| if k % 2 == 0 { 1.0 } else { w }).collect();
+        let knots = KnotVector::new(2, knots).unwrap();
+        CurveShape::Known(Curve::rational(knots, points.to_vec(), weights).unwrap())
+    }
+
+    /// A circle as a loop of one edge, or of two.
+    fn courses(shape: &CurveShape, cut: Option<f64>, backwards: bool) -> Vec<Course<'_>> {
+        let course = |range: [f64; 2]| Course {
+            spline: Spline::of_space(shape),
+            range,
+            backwards,
+            plane: Some([DVec3::ZERO, DVec3::X, DVec3::Y]),
         };
-        (0..4)
-            .map(|k| (0..3).map(|i| corner(2 * k + i)).collect())
-            .collect()
+        let Some(cut) = cut else {
+            return vec![course([0.0, 4.0])];
+        };
+        let mut both = vec![course([0.0, cut]), course([cut, 4.0])];
+        if backwards {
+            both.reverse();
+        }
+        both
     }
 
     #[test]
     fn a_ring_holds_what_its_equation_says_and_is_silent_on_its_border() {
+        let (outer, inner) = (
+            circle(DVec2::new(3.0, 1.0), 2.0),
+            circle(DVec2::new(2.5, 1.0), 0.7),
+        );
         let mut ring = Outline::default();
-        assert!(ring.add(circle(DVec2::new(3.0, 1.0), 2.0)) < 1e-15);
-        assert!(ring.add(circle(DVec2::new(2.5, 1.0), 0.7)) < 1e-15);
+        ring.add(courses(&outer, Some(1.3), false));
+        ring.add(courses(&inner, None, true));
         let slack = DVec2::splat(1e-9);
         let mut silent = 0;
         for k in 1..5000_u32 {
@@ -238,7 +324,7 @@ mod tests {
         let border = DVec2::new(3.0 + 2.0 * cosine, 1.0 + 2.0 * sine);
         assert_eq!(ring.holds(border, slack), None);
         // At the height of both middles: from 2.5 + 0.7 to 3 + 2.
-        let (middle, width) = ring.widest(1.0 + 1e-7).unwrap();
-        assert!((middle.x - 4.1).abs() < 1e-3 && (width - 1.8).abs() < 1e-3);
+        let middle = ring.widest(1.0 + 1e-7).unwrap();
+        assert!((middle.x - 4.1).abs() < 1e-3);
     }
 }

@@ -4,11 +4,11 @@
 //! face if the outline of the face's own curves holds the place. The solids on both sides come from the solids' shells. Nothing that
 //! the partition knew on its way is used.
 
-use glam::{DVec2, DVec3, Vec4Swizzles};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::outline::Outline;
-use super::spline::{Net, Spline};
+use super::outline::{Course, Outline};
+use super::spline::Spline;
 use super::tree::{Bounds, Tree};
 use crate::nurbs::pierce::{Line, Passage, Target, merged};
 use crate::partition::{Face, Topology};
@@ -29,21 +29,21 @@ pub(super) struct Crossing {
 }
 
 /// A face with its outline.
-struct Located {
-    surface: Shape,
-    outline: Outline,
+struct Located<'a> {
+    surface: Shape<'a>,
+    outline: Outline<'a>,
 }
 
-enum Shape {
+enum Shape<'a> {
     /// Origin, normal, and two directions in it.
     Plane([DVec3; 4]),
-    Spline(Target),
+    Spline(Target<'a>),
 }
 
 /// Topology in which lines are followed.
 pub(super) struct Scene<'a> {
     pub(super) topology: &'a Topology,
-    faces: Vec<Located>,
+    faces: Vec<Located<'a>>,
     tree: Tree<(usize, usize)>,
     /// By face: the solid behind it and the one in front, seen along `S_u × S_v`.
     pub(super) sides: Vec<[Option<usize>; 2]>,
@@ -56,62 +56,44 @@ pub(super) fn frame([origin, normal, x]: [DVec3; 3]) -> [DVec3; 4] {
     [origin, normal, x, normal.cross(x)]
 }
 
-fn reversed(mut net: Net, is_reversed: bool) -> Net {
-    if is_reversed {
-        net.reverse();
-    }
-    net
-}
-
-/// The pieces of an edge in the parameters of a face's surface, in the direction of the loop.
-pub(super) fn pieces(topology: &Topology, face: &Face, (edge, backwards): (usize, bool)) -> Vec<Net> {
+/// An edge as a face's loop runs along it, in the parameters of the face's surface; none along a pole of a plane, or
+/// where there is no curve.
+pub(super) fn course<'a>(
+    topology: &'a Topology,
+    face: &Face,
+    (edge, backwards): (usize, bool),
+) -> Option<Course<'a>> {
     let own = &topology.edges[edge];
-    let mut nets: Vec<Net> = if let Some(plane) = topology.sheets[face.sheet].plane {
+    let (spline, plane) = if let Some(plane) = topology.sheets[face.sheet].plane {
         let [origin, _, x, y] = frame(plane);
-        let Some(curve) = own.curve else {
-            return Vec::new();
-        };
-        let spline = Spline::of_space(&topology.curves[curve]);
-        if !spline.is_sound() {
-            return Vec::new();
-        }
-        let flat = |h: &glam::DVec4| {
-            let p = h.xyz() - origin * h.w;
-            glam::DVec4::new(p.dot(x), p.dot(y), 0.0, h.w)
-        };
-        spline
-            .pieces(own.range)
-            .map(|net| net.iter().map(flat).collect())
-            .collect()
+        let spline = Spline::of_space(&topology.curves[own.curve?]);
+        (spline, Some([origin, x, y]))
     } else {
-        let Some(on) = own.on.iter().find(|on| on.sheet == face.sheet) else {
-            return Vec::new();
-        };
+        let on = own.on.iter().find(|on| on.sheet == face.sheet)?;
         let image = match on.reversed {
             Some(image) if backwards => image,
             _ => on.forward,
         };
-        let spline = Spline::of_plane(&topology.plane_curves[image], own.range);
-        if !spline.is_sound() {
-            return Vec::new();
-        }
-        spline.pieces(own.range).collect()
+        (
+            Spline::of_plane(&topology.plane_curves[image], own.range),
+            None,
+        )
     };
-    if backwards {
-        nets.reverse();
-    }
-    nets.into_iter()
-        .map(|net| reversed(net, backwards))
-        .collect()
+    spline.is_sound().then_some(Course {
+        spline,
+        range: own.range,
+        backwards,
+        plane,
+    })
 }
 
-impl Located {
-    fn new(topology: &Topology, face: &Face) -> Self {
+impl<'a> Located<'a> {
+    fn new(topology: &'a Topology, face: &Face) -> Self {
         let sheet = &topology.sheets[face.sheet];
         let mut outline = Outline::default();
         for own in &face.loops {
-            let all = own.iter().flat_map(|half| pieces(topology, face, *half));
-            outline.add(all.collect());
+            let courses = own.iter().filter_map(|half| course(topology, face, *half));
+            outline.add(courses.collect());
         }
         let surface = match sheet.plane {
             Some(plane) => Shape::Plane(frame(plane)),
@@ -157,7 +139,7 @@ impl Located {
 
 impl<'a> Scene<'a> {
     pub(super) fn new(topology: &'a Topology, near: f64) -> Self {
-        let faces: Vec<Located> = topology
+        let faces: Vec<Located<'a>> = topology
             .faces
             .par_iter()
             .map(|face| Located::new(topology, face))
@@ -238,7 +220,7 @@ impl<'a> Scene<'a> {
         (1..).filter_map(move |k| {
             // Multiples of the golden ratio: spread evenly, and on no height that symmetry prefers.
             let part = (f64::from(k) * 0.618_033_988_749_895).fract();
-            let (at, _) = own.outline.widest(low.y + part * (high.y - low.y))?;
+            let at = own.outline.widest(low.y + part * (high.y - low.y))?;
             match &own.surface {
                 Shape::Plane([origin, normal, x, y]) => {
                     Some((*origin + *x * at.x + *y * at.y, *normal))
@@ -250,6 +232,11 @@ impl<'a> Scene<'a> {
                 }
             }
         })
+    }
+
+    /// Whether a face's outer loop comes first.
+    pub(super) fn is_in_order(&self, face: usize) -> bool {
+        self.faces[face].outline.is_in_order()
     }
 
     /// The volume of a solid.

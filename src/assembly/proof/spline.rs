@@ -1,99 +1,114 @@
 //! Curves of finished topology as rational Bézier pieces, read from their knots and control points by blossoms.
 //!
-//! The polynomial that a spline of degree p is on a span is determined by its blossom: the value at p arguments, of which
-//! the piece's control points are those with ends of the piece as arguments. Any part of a span is a piece as well, so
-//! nothing has to be split.
+//! Any part of a span is a piece as well, so nothing has to be split; and nothing is stored, since most pieces are never
+//! looked at closely.
 
-use glam::{DVec3, DVec4, Vec4Swizzles};
-use smallvec::{SmallVec, smallvec};
+use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 
+use crate::nurbs::blossom;
+pub(super) use crate::nurbs::blossom::Net;
 use crate::partition::{CurveShape, PlaneCurve};
 
 /// Degree of computed curves.
 const COMPUTED: usize = 5;
 
-/// Homogeneous control points.
-pub(super) type Net = SmallVec<[DVec4; 6]>;
-
-/// A B-spline curve with homogeneous control points.
-pub(super) struct Spline {
+/// A B-spline curve.
+pub(super) struct Spline<'a> {
     degree: usize,
-    knots: Vec<f64>,
-    net: Vec<DVec4>,
+    knots: Knots<'a>,
+    points: Points<'a>,
 }
 
-impl Spline {
-    pub(super) fn of_space(shape: &CurveShape) -> Self {
+enum Knots<'a> {
+    Of(&'a [f64]),
+    Line([f64; 4]),
+}
+
+#[derive(Clone, Copy)]
+enum Points<'a> {
+    Space(&'a [DVec3]),
+    Rational(&'a [DVec3], &'a [f64]),
+    Plane(&'a [DVec2]),
+    Line([DVec2; 2]),
+}
+
+impl<'a> Spline<'a> {
+    pub(super) fn of_space(shape: &'a CurveShape) -> Self {
         match shape {
             CurveShape::Known(curve) => Self {
                 degree: curve.degree(),
-                knots: curve.knots().as_slice().to_vec(),
-                net: curve
-                    .points()
-                    .iter()
-                    .zip(curve.weights())
-                    .map(|(p, w)| (*p * *w).extend(*w))
-                    .collect(),
+                knots: Knots::Of(curve.knots().as_slice()),
+                points: Points::Rational(curve.points(), curve.weights()),
             },
             CurveShape::Computed { knots, points } => Self {
                 degree: COMPUTED,
-                knots: knots.clone(),
-                net: points.iter().map(|p| p.extend(1.0)).collect(),
+                knots: Knots::Of(knots),
+                points: Points::Space(points),
             },
         }
     }
 
     /// In the parameters of a surface; the third coordinate is zero.
-    pub(super) fn of_plane(shape: &PlaneCurve, range: [f64; 2]) -> Self {
+    pub(super) fn of_plane(shape: &'a PlaneCurve, range: [f64; 2]) -> Self {
         match shape {
             PlaneCurve::Line { origin, direction } => Self {
                 degree: 1,
-                knots: vec![range[0], range[0], range[1], range[1]],
-                net: range
-                    .map(|t| (*origin + *direction * t).extend(0.0).extend(1.0))
-                    .to_vec(),
+                knots: Knots::Line([range[0], range[0], range[1], range[1]]),
+                points: Points::Line(range.map(|t| *origin + *direction * t)),
             },
             PlaneCurve::Computed { knots, points } => Self {
                 degree: COMPUTED,
-                knots: knots.clone(),
-                net: points.iter().map(|p| p.extend(0.0).extend(1.0)).collect(),
+                knots: Knots::Of(knots),
+                points: Points::Plane(points),
             },
+        }
+    }
+
+    fn knots(&self) -> &[f64] {
+        match &self.knots {
+            Knots::Of(knots) => knots,
+            Knots::Line(knots) => knots,
+        }
+    }
+
+    fn count(&self) -> usize {
+        match self.points {
+            Points::Space(points) | Points::Rational(points, _) => points.len(),
+            Points::Plane(points) => points.len(),
+            Points::Line(_) => 2,
+        }
+    }
+
+    /// A homogeneous control point.
+    fn control(&self, k: usize) -> DVec4 {
+        match self.points {
+            Points::Space(points) => points[k].extend(1.0),
+            Points::Rational(points, weights) => (points[k] * weights[k]).extend(weights[k]),
+            Points::Plane(points) => points[k].extend(0.0).extend(1.0),
+            Points::Line(ends) => ends[k].extend(0.0).extend(1.0),
         }
     }
 
     /// Whether there are as many control points as the knots ask for, and all are numbers.
     pub(super) fn is_sound(&self) -> bool {
-        self.net.len() > self.degree
-            && self.knots.len() == self.net.len() + self.degree + 1
-            && self.knots.windows(2).all(|pair| pair[0] <= pair[1])
-            && self.net.iter().all(|h| h.is_finite() && h.w > 0.0)
+        let (knots, count) = (self.knots(), self.count());
+        let mut controls = (0..count).map(|k| self.control(k));
+        count > self.degree
+            && knots.len() == count + self.degree + 1
+            && knots.windows(2).all(|pair| pair[0] <= pair[1])
+            && controls.all(|h| h.is_finite() && h.w > 0.0)
     }
 
     /// The span that holds a parameter: the last knot not above it that is below the last one of all.
     fn span(&self, t: f64) -> usize {
-        let inner = &self.knots[self.degree + 1..self.net.len()];
+        let inner = &self.knots()[self.degree + 1..self.count()];
         self.degree + inner.partition_point(|knot| *knot <= t)
-    }
-
-    /// The blossom of a span's polynomial (de Boor's algorithm with an argument of its own in each round).
-    fn blossom(&self, span: usize, arguments: &[f64]) -> DVec4 {
-        let p = self.degree;
-        let mut work: Net = SmallVec::from_slice(&self.net[span - p..=span]);
-        for (round, t) in arguments.iter().enumerate() {
-            for k in 0..p - round {
-                let low = self.knots[span - p + 1 + round + k];
-                let high = self.knots[span + 1 + k];
-                let part = (t - low) / (high - low);
-                work[k] = work[k] * (1.0 - part) + work[k + 1] * part;
-            }
-        }
-        work[0]
     }
 
     /// The point at a parameter.
     pub(super) fn point(&self, t: f64) -> DVec3 {
-        let arguments: SmallVec<[f64; 8]> = smallvec![t; self.degree];
-        let h = self.blossom(self.span(t), &arguments);
+        let arguments = (0..self.degree).map(|_| t);
+        let h = blossom::blossom(self.knots(), self.span(t), arguments, |k| self.control(k));
         h.xyz() / h.w
     }
 
@@ -101,25 +116,17 @@ impl Spline {
     pub(super) fn breaks(&self, [from, to]: [f64; 2]) -> Vec<f64> {
         let mut breaks = vec![from];
         let within = |knot: &&f64| **knot > from && **knot < to;
-        breaks.extend(self.knots.iter().filter(within));
+        breaks.extend(self.knots().iter().filter(within));
         breaks.push(to);
         breaks.dedup();
         breaks
     }
 
-    /// The Bézier pieces over a range.
-    pub(super) fn pieces(&self, range: [f64; 2]) -> impl Iterator<Item = Net> {
-        let breaks = self.breaks(range);
-        (1..breaks.len()).map(move |k| {
-            let (from, to) = (breaks[k - 1], breaks[k]);
-            let span = self.span(0.5 * (from + to));
-            let control = |i: usize| {
-                let arguments: SmallVec<[f64; 8]> = (0..self.degree)
-                    .map(|k| if k < self.degree - i { from } else { to })
-                    .collect();
-                self.blossom(span, &arguments)
-            };
-            (0..=self.degree).map(control).collect()
+    /// The Bézier piece over a part of a span.
+    pub(super) fn piece(&self, [from, to]: [f64; 2]) -> Net {
+        let span = self.span(0.5 * (from + to));
+        blossom::piece(self.knots(), self.degree, span, [from, to], |k| {
+            self.control(k)
         })
     }
 }
@@ -127,8 +134,6 @@ impl Spline {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
-    use glam::DVec2;
-
     use super::*;
     use crate::nurbs::{Curve, KnotVector};
 
@@ -154,12 +159,14 @@ mod tests {
         let weights = vec![1.0, 0.5, 2.0, 1.0, 0.8, 1.3, 1.0];
         let knots = KnotVector::new(3, knots).unwrap();
         let curve = Curve::rational(knots, points, weights).unwrap();
-        let spline = Spline::of_space(&CurveShape::Known(curve.clone()));
+        let shape = CurveShape::Known(curve.clone());
+        let spline = Spline::of_space(&shape);
         assert!(spline.is_sound());
         let range = [0.4, 3.1];
         let breaks = spline.breaks(range);
         assert_eq!(breaks, [0.4, 1.0, 2.5, 3.1]);
-        for (piece, ends) in spline.pieces(range).zip(breaks.windows(2)) {
+        for ends in breaks.windows(2) {
+            let piece = spline.piece([ends[0], ends[1]]);
             for k in 0..=4 {
                 let part = 0.25 * f64::from(k);
                 let t = ends[0] + part * (ends[1] - ends[0]);
@@ -176,9 +183,9 @@ mod tests {
             direction: DVec2::new(0.5, -1.0),
         };
         let spline = Spline::of_plane(&line, [2.0, 6.0]);
-        let pieces: Vec<Net> = spline.pieces([2.0, 6.0]).collect();
-        assert_eq!(pieces.len(), 1);
-        assert_eq!(pieces[0][0].xyz(), DVec3::new(2.0, 0.0, 0.0));
-        assert_eq!(pieces[0][1].xyz(), DVec3::new(4.0, -4.0, 0.0));
+        assert_eq!(spline.breaks([2.0, 6.0]), [2.0, 6.0]);
+        let piece = spline.piece([2.0, 6.0]);
+        assert_eq!(piece[0].xyz(), DVec3::new(2.0, 0.0, 0.0));
+        assert_eq!(piece[1].xyz(), DVec3::new(4.0, -4.0, 0.0));
     }
 }
