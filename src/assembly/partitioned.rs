@@ -13,7 +13,7 @@ use tables::tables;
 use super::kernel::{Cancel, FaceIntegral, Solids};
 use super::labels::Holders;
 use super::measure::{Counts, Measured};
-use super::proof::Evidence;
+use super::proof::{Check, Evidence};
 use super::shapes::EXACT;
 use super::{AssemblyError, Engine, Failed, Options, contacts};
 use crate::features::body::TroughError;
@@ -192,7 +192,15 @@ pub(super) fn finish(
         evidence: Evidence {
             lids: plan.lids.len(),
             topology: Some(made.topology),
-            checks: Vec::new(),
+            checks: vec![Check {
+                name: "pairs of patches where more curves than were found are not excluded",
+                measured: made.certificates.uncertain as f64,
+                bound: f64::INFINITY,
+                detail: format!(
+                    "{} curves, on {} pairs of patches alone",
+                    made.branches, made.certificates.certain
+                ),
+            }],
         },
         crossing_bodies: made.crossing_regions.iter().filter(bodies).count(),
         solids,

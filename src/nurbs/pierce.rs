@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
 use super::bezier::{Patch, Region};
-use super::blossom::{self, Net};
+use super::blossom;
 use super::knots::ORDER;
 use super::{KnotVector, Surface};
 
@@ -94,18 +94,56 @@ pub struct Passage {
 #[derive(Clone, Debug)]
 pub struct Target<'a> {
     surface: &'a Surface,
-    /// The spans in u and in v, by the index of the knot that each begins at.
-    spans: [Vec<usize>; 2],
+    /// In u and in v.
+    spans: [Vec<Span>; 2],
     boxes: Vec<(DVec3, DVec3)>,
+}
+
+/// A span of a knot vector, and how control points of the spline make those of its Bézier piece.
+#[derive(Clone, Debug)]
+struct Span {
+    /// The first control point that matters.
+    first: usize,
+    range: [f64; 2],
+    /// Bézier point i is the sum of `parts[i][k]` times control point `first + k`.
+    parts: [[f64; ORDER]; ORDER],
+}
+
+impl Span {
+    /// All spans of a knot vector.
+    fn all(knots: &KnotVector) -> Vec<Self> {
+        let (all, degree) = (knots.as_slice(), knots.degree());
+        let is_span = |at: &usize| all[*at] < all[*at + 1];
+        let span = |at: usize| {
+            let range = [all[at], all[at + 1]];
+            let mut parts = [[0.0; ORDER]; ORDER];
+            for k in 0..=degree {
+                let unit = |other: usize| {
+                    if other == at - degree + k {
+                        DVec4::ONE
+                    } else {
+                        DVec4::ZERO
+                    }
+                };
+                let own = blossom::piece(all, degree, at, range, unit);
+                for (row, h) in parts.iter_mut().zip(own) {
+                    row[k] = h.x;
+                }
+            }
+            Self {
+                first: at - degree,
+                range,
+                parts,
+            }
+        };
+        (degree..knots.count()).filter(is_span).map(span).collect()
+    }
 }
 
 impl<'a> Target<'a> {
     /// Of a whole surface.
     pub fn new(surface: &'a Surface) -> Self {
-        let spans = [surface.knots_u(), surface.knots_v()].map(|knots| {
-            let is_span = |at: &usize| knots.as_slice()[*at] < knots.as_slice()[*at + 1];
-            (knots.degree()..knots.count()).filter(is_span).collect()
-        });
+        let spans = [surface.knots_u(), surface.knots_v()].map(Span::all);
         let mut target = Self {
             surface,
             spans,
@@ -118,50 +156,50 @@ impl<'a> Target<'a> {
 
     /// A patch with its parameters.
     fn patch(&self, at: usize) -> (Patch, Region) {
-        let (u, v) = (self.surface.knots_u(), self.surface.knots_v());
-        let own = [at / self.spans[1].len(), at % self.spans[1].len()];
-        let [i, j] = [self.spans[0][own[0]], self.spans[1][own[1]]];
-        let range = |knots: &KnotVector, k: usize| [knots.as_slice()[k], knots.as_slice()[k + 1]];
-        let region = Region {
-            u: range(u, i),
-            v: range(v, j),
-        };
-        let (net, weights, row) = (self.surface.net(), self.surface.weights(), v.count());
-        let lines: SmallVec<[Net; 6]> = (i - u.degree()..=i)
-            .map(|line| {
-                blossom::piece(v.as_slice(), v.degree(), j, region.v, |k| {
-                    let (p, w) = (net[line * row + k], weights[line * row + k]);
-                    (p * w).extend(w)
-                })
-            })
-            .collect();
-        let order = [u.degree() + 1, v.degree() + 1];
-        let mut patch = Patch {
-            degree_u: u.degree(),
-            degree_v: v.degree(),
-            net: vec![DVec4::ZERO; order[0] * order[1]],
-        };
-        for column in 0..order[1] {
-            let own = blossom::piece(u.as_slice(), u.degree(), i, region.u, |k| {
-                lines[k + u.degree() - i][column]
-            });
-            for (line, h) in own.into_iter().enumerate() {
-                patch.net[line * order[1] + column] = h;
+        let columns = self.spans[1].len();
+        let (u, v) = (&self.spans[0][at / columns], &self.spans[1][at % columns]);
+        let (net, weights) = (self.surface.net(), self.surface.weights());
+        let row = self.surface.knots_v().count();
+        let order = [self.surface.knots_u(), self.surface.knots_v()].map(|k| k.degree() + 1);
+        // Along v first, then along u.
+        let mut lines = [[DVec4::ZERO; ORDER]; ORDER];
+        for (i, line) in lines.iter_mut().enumerate().take(order[0]) {
+            let from = (u.first + i) * row + v.first;
+            for k in 0..order[1] {
+                let w = weights[from + k];
+                let h = (net[from + k] * w).extend(w);
+                for (j, sum) in line.iter_mut().enumerate().take(order[1]) {
+                    *sum += h * v.parts[j][k];
+                }
             }
         }
-        (patch, region)
+        let mut own = Vec::with_capacity(order[0] * order[1]);
+        for parts in &u.parts[..order[0]] {
+            for j in 0..order[1] {
+                let terms = (0..order[0]).map(|k| lines[k][j] * parts[k]);
+                own.push(terms.fold(DVec4::ZERO, |sum, term| sum + term));
+            }
+        }
+        (
+            Patch {
+                degree_u: order[0] - 1,
+                degree_v: order[1] - 1,
+                net: own,
+            },
+            Region {
+                u: u.range,
+                v: v.range,
+            },
+        )
     }
 
     /// Its patches: the box of each, and its ranges of parameters as lower and upper corner.
     pub fn patches(&self) -> impl Iterator<Item = ((DVec3, DVec3), [DVec2; 2])> {
-        let [u, v] = [self.surface.knots_u(), self.surface.knots_v()].map(KnotVector::as_slice);
         let columns = self.spans[1].len();
         self.boxes.iter().enumerate().map(move |(at, bounds)| {
-            let [i, j] = [self.spans[0][at / columns], self.spans[1][at % columns]];
-            (
-                *bounds,
-                [DVec2::new(u[i], v[j]), DVec2::new(u[i + 1], v[j + 1])],
-            )
+            let (u, v) = (&self.spans[0][at / columns], &self.spans[1][at % columns]);
+            let corner = |k: usize| DVec2::new(u.range[k], v.range[k]);
+            (*bounds, [corner(0), corner(1)])
         })
     }
 

@@ -16,6 +16,7 @@
 //! **Limits.** Sheets of different regions must cross at an angle or stay apart. Where they touch, or run along
 //! each other, a count in [`Faults`] is not zero and the result must not be used.
 
+mod alone;
 mod along;
 mod arcs;
 mod bernstein;
@@ -155,8 +156,19 @@ pub struct Partition {
     pub crossing_regions: Vec<(usize, usize)>,
     /// Computed curves.
     pub branches: usize,
+    /// Pairs of patches that a curve was found on.
+    pub certificates: Certificates,
     /// Seconds per stage.
     pub timings: Vec<(&'static str, std::time::Duration)>,
+}
+
+/// Pairs of patches of sheets that are no heights over one plan, on which a curve was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Certificates {
+    /// Where it is certain to be the only one.
+    pub certain: usize,
+    /// The smallest ones where another one is not excluded.
+    pub uncertain: usize,
 }
 
 /// How far beyond the domain curves are followed, as a fraction of its diagonal.
@@ -232,6 +244,7 @@ pub fn partition(
         doubts: crossings.doubts,
         crossing_regions,
         branches: crossings.curves.len(),
+        certificates: crossings.certificates,
         timings: clock.laps,
     })
 }

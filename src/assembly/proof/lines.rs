@@ -7,8 +7,8 @@
 //!
 //! - columns, one in each cell of a grid over the plan;
 //! - through patches of every body's surfaces, so that a small body is met;
-//! - columns where the difference of two heights has an extremum ([`super::extrema`]): a closed curve in which they cross has
-//!   one inside.
+//! - columns where the difference of a surface and a horizon has an extremum ([`super::extrema`]): a closed curve in which they
+//!   cross has one inside.
 //!
 //! Through every face go two shorter lines, roughly across it; there only what lies next to the face is asked for. Two points on either
 //! side, one of them near, never farther than the bed beside the face is thick.
@@ -194,7 +194,7 @@ impl Prover<'_> {
             };
             lines.push((0..TRIES).map(column).collect());
         }
-        let extrema = super::extrema::columns(self.plan, each * each);
+        let extrema = super::extrema::columns(self.plan, surfaces, each * each);
         lines.extend(extrema.iter().map(|(place, reach)| {
             let column = |k: usize| {
                 let turn = DVec2::from_angle(2.4 * k as f64) * *reach * (k as f64 / TRIES as f64);
@@ -225,24 +225,28 @@ impl Prover<'_> {
             }
         }
         // Patches outside of the domain are none; a subset that is spread evenly stands for very many.
-        let step = places.len().div_ceil(8 * most.max(1)).max(1);
-        let mut lines: Vec<Vec<Line>> = Vec::new();
-        for (surface, [u0, u1], [v0, v1]) in places.into_iter().step_by(step) {
-            let across = |k: usize| {
-                let part = 0.43 + 0.037 * k as f64;
-                let (u, v) = (u0 + part * (u1 - u0), v0 + (0.97 - part) * (v1 - v0));
-                let point = surface.point(u, v);
-                let normal = surface.normal(u, v)?;
-                let within = point.cmpge(low).all() && point.cmple(high).all();
-                within.then(|| across(point, normal))
+        let thinned = |places: Vec<_>, most: usize| {
+            let step = places.len().div_ceil(most.max(1)).max(1);
+            places.into_iter().step_by(step)
+        };
+        let at = |surface: &Surface, [u0, u1]: [f64; 2], [v0, v1]: [f64; 2], k: usize| {
+            let part = 0.43 + 0.037 * k as f64;
+            let (u, v) = (u0 + part * (u1 - u0), v0 + (0.97 - part) * (v1 - v0));
+            let point = surface.point(u, v);
+            let within = point.cmpge(low).all() && point.cmple(high).all();
+            within.then_some((u, v, point))
+        };
+        let within: Vec<_> = thinned(places, 8 * most)
+            .filter(|(surface, u, v)| at(surface, *u, *v, 0).is_some())
+            .collect();
+        let tries = |(surface, u, v): (&Surface, [f64; 2], [f64; 2])| {
+            let line = |k: usize| {
+                let (u, v, point) = at(surface, u, v, k)?;
+                Some(across(point, surface.normal(u, v)?))
             };
-            let tries: Vec<Line> = (0..TRIES).filter_map(across).collect();
-            if !tries.is_empty() {
-                lines.push(tries);
-            }
-        }
-        let step = lines.len().div_ceil(most.max(1)).max(1);
-        lines.into_iter().step_by(step).collect()
+            (0..TRIES).filter_map(line).collect()
+        };
+        thinned(within, most).map(tries).collect()
     }
 
     /// What the first clear line of some finds.

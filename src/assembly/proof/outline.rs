@@ -10,8 +10,10 @@ use super::spline::{Net, Spline};
 
 /// Halvings of one piece until its hull is as small as rounding.
 const MOST_HALVINGS: usize = 60;
+/// Courses of fewer pieces have as many points in each.
+const FEW: usize = 4;
 /// Pieces this much smaller than an outline are straight, where points inside of it are looked for.
-const STRAIGHT: f64 = 1e-4;
+const STRAIGHT: f64 = 1e-2;
 
 /// An edge as a loop runs along it.
 pub(super) struct Course<'a> {
@@ -25,15 +27,27 @@ pub(super) struct Course<'a> {
 }
 
 impl Course<'_> {
+    /// A homogeneous point as it is seen in the plane.
+    fn seen(&self, h: DVec4) -> DVec4 {
+        self.plane.map_or(h, |[origin, x, y]| {
+            let p = h.xyz() - origin * h.w;
+            DVec4::new(p.dot(x), p.dot(y), 0.0, h.w)
+        })
+    }
+
+    fn point(&self, t: f64) -> DVec2 {
+        flat(self.seen(self.spline.point(t).extend(1.0)))
+    }
+
+    /// A box that holds the piece over a part of a span: that of the control points that matter there.
+    fn bounds(&self, range: [f64; 2]) -> (DVec2, DVec2) {
+        around(self.spline.around(range).map(|h| flat(self.seen(h))))
+    }
+
     /// The piece over a part of a span, in the direction of the loop.
-    pub(super) fn net(&self, range: [f64; 2]) -> Net {
+    fn net(&self, range: [f64; 2]) -> Net {
         let mut net = self.spline.piece(range);
-        if let Some([origin, x, y]) = self.plane {
-            for h in &mut net {
-                let p = h.xyz() - origin * h.w;
-                *h = DVec4::new(p.dot(x), p.dot(y), 0.0, h.w);
-            }
-        }
+        net.iter_mut().for_each(|h| *h = self.seen(*h));
         if self.backwards {
             net.reverse();
         }
@@ -41,7 +55,7 @@ impl Course<'_> {
     }
 
     /// Its parts by spans, in the direction of the loop.
-    pub(super) fn parts(&self) -> Vec<[f64; 2]> {
+    fn parts(&self) -> Vec<[f64; 2]> {
         let breaks = self.spline.breaks(self.range);
         let mut parts: Vec<[f64; 2]> = breaks.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         if self.backwards {
@@ -56,7 +70,7 @@ impl Course<'_> {
 pub(super) struct Outline<'a> {
     courses: Vec<Course<'a>>,
     pieces: Vec<Piece>,
-    /// By loop: the signed area of its control polygon.
+    /// By loop: the signed area of a polygon on it.
     areas: Vec<f64>,
     low: DVec2,
     high: DVec2,
@@ -130,28 +144,38 @@ impl<'a> Outline<'a> {
     /// Adds a loop of edges.
     pub(super) fn add(&mut self, courses: Vec<Course<'a>>) {
         let first = self.pieces.len();
-        let (mut area, mut corners) = (0.0, None);
+        let mut polygon: Vec<DVec2> = Vec::new();
         for course in courses {
-            for range in course.parts() {
-                let net = course.net(range);
-                for p in net.iter().map(|h| flat(*h)) {
-                    let (origin, last) = corners.unwrap_or((p, p));
-                    area += 0.5 * (last - origin).perp_dot(p - origin);
-                    corners = Some((origin, p));
-                }
-                let (low, high) = around(net.iter().map(|h| flat(*h)));
+            let parts = course.parts();
+            // Many pieces make a polygon of their ends; of few, points between count, too.
+            let between = if parts.len() < FEW { FEW } else { 1 };
+            for range in parts {
+                let (low, high) = course.bounds(range);
+                let [from, to] = if course.backwards {
+                    [range[1], range[0]]
+                } else {
+                    range
+                };
+                let places =
+                    (1..=between).map(|k| from + (to - from) * (k as f64 / between as f64));
+                polygon.extend(places.map(|t| course.point(t)));
+                let end = polygon[polygon.len() - 1];
                 self.pieces.push(Piece {
-                    low,
-                    high,
-                    ends: [flat(net[0]), flat(net[net.len() - 1])],
+                    low: low.min(end),
+                    high: high.max(end),
+                    ends: [end; 2],
                     course: self.courses.len(),
                     range,
                 });
             }
             self.courses.push(course);
         }
+        let corners = polygon.iter().zip(polygon.iter().cycle().skip(1));
+        let area = corners
+            .map(|(a, b)| 0.5 * (*a - polygon[0]).perp_dot(*b - polygon[0]))
+            .sum();
         self.areas.push(area);
-        // What rounding leaves between two pieces would be a hole in the outline.
+        // Each begins where the last one ends: what rounding leaves between them would be a hole in the outline.
         let own = &mut self.pieces[first..];
         let Some(mut from) = own.last().map(|last| last.ends[1]) else {
             return;

@@ -122,6 +122,12 @@ impl<'a> Spline<'a> {
         breaks
     }
 
+    /// The control points that matter over a part of a span.
+    pub(super) fn around(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = DVec4> {
+        let span = self.span(0.5 * (from + to));
+        (span - self.degree..=span).map(|k| self.control(k))
+    }
+
     /// The Bézier piece over a part of a span.
     pub(super) fn piece(&self, [from, to]: [f64; 2]) -> Net {
         let span = self.span(0.5 * (from + to));
