@@ -8,7 +8,7 @@
 //! is not clear, and says nothing.
 
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
-use smallvec::SmallVec;
+use smallvec::{SmallVec, smallvec};
 
 use super::bezier::{Patch, Region};
 use super::blossom;
@@ -106,7 +106,7 @@ struct Span {
     first: usize,
     range: [f64; 2],
     /// Bézier point i is the sum of `parts[i][k]` times control point `first + k`.
-    parts: [[f64; ORDER]; ORDER],
+    parts: SmallVec<[SmallVec<[f64; 4]>; 4]>,
 }
 
 impl Span {
@@ -116,7 +116,8 @@ impl Span {
         let is_span = |at: &usize| all[*at] < all[*at + 1];
         let span = |at: usize| {
             let range = [all[at], all[at + 1]];
-            let mut parts = [[0.0; ORDER]; ORDER];
+            let mut parts: SmallVec<[SmallVec<[f64; 4]>; 4]> =
+                (0..=degree).map(|_| smallvec![0.0; degree + 1]).collect();
             for k in 0..=degree {
                 let unit = |other: usize| {
                     if other == at - degree + k {
@@ -162,21 +163,22 @@ impl<'a> Target<'a> {
         let row = self.surface.knots_v().count();
         let order = [self.surface.knots_u(), self.surface.knots_v()].map(|k| k.degree() + 1);
         // Along v first, then along u.
-        let mut lines = [[DVec4::ZERO; ORDER]; ORDER];
-        for (i, line) in lines.iter_mut().enumerate().take(order[0]) {
+        let mut lines: SmallVec<[DVec4; 16]> = smallvec![DVec4::ZERO; order[0] * order[1]];
+        for (i, line) in lines.chunks_exact_mut(order[1]).enumerate() {
             let from = (u.first + i) * row + v.first;
             for k in 0..order[1] {
                 let w = weights[from + k];
                 let h = (net[from + k] * w).extend(w);
-                for (j, sum) in line.iter_mut().enumerate().take(order[1]) {
-                    *sum += h * v.parts[j][k];
+                for (sum, parts) in line.iter_mut().zip(&v.parts) {
+                    *sum += h * parts[k];
                 }
             }
         }
         let mut own = Vec::with_capacity(order[0] * order[1]);
-        for parts in &u.parts[..order[0]] {
+        for parts in &u.parts {
             for j in 0..order[1] {
-                let terms = (0..order[0]).map(|k| lines[k][j] * parts[k]);
+                let terms = parts.iter().enumerate();
+                let terms = terms.map(|(k, part)| lines[k * order[1] + j] * *part);
                 own.push(terms.fold(DVec4::ZERO, |sum, term| sum + term));
             }
         }

@@ -17,7 +17,7 @@ use super::facet::Facet;
 use super::hermite::{Branch, End};
 
 /// How far beyond a patch its border still is, as a fraction of its parameters: curves may run along borders.
-const BORDER: f64 = 1e-9;
+pub(super) const BORDER: f64 = 1e-9;
 /// Bisections for where a curve leaves a patch.
 const BISECTIONS: usize = 30;
 
@@ -27,12 +27,14 @@ type Ranges = [[f64; 2]; 4];
 /// The parameters of which each grows, or falls, along all chords of common points of two patches.
 pub(super) struct Chords {
     ranges: Ranges,
+    /// By how much the ranges are wider than the patches.
+    slack: f64,
     is_monotone: [bool; 4],
 }
 
 impl Chords {
-    /// Of two patches; `None` if normals may be parallel.
-    pub(super) fn new(a: &Facet<'_>, b: &Facet<'_>) -> Option<Self> {
+    /// Of two patches and a little around them, as a fraction of their parameters; `None` if normals may be parallel.
+    pub(super) fn new(a: &Facet<'_>, b: &Facet<'_>, slack: f64) -> Option<Self> {
         let ((normal_a, lean_a), (normal_b, lean_b)) = (a.normals?, b.normals?);
         let along = normal_a.cross(normal_b);
         let sine = along.length();
@@ -52,11 +54,12 @@ impl Chords {
         }
         let (a, b) = (&a.patch, &b.patch);
         let ranges = [a.u, a.v, b.u, b.v].map(|[low, high]| {
-            let slack = BORDER * (high - low);
-            [low - slack, high + slack]
+            let more = slack * (high - low);
+            [low - more, high + more]
         });
         Some(Self {
             ranges,
+            slack,
             is_monotone,
         })
     }
@@ -140,7 +143,7 @@ impl Chords {
     fn ends_at(&self, q: &[f64; 4]) -> bool {
         (0..4).any(|k| {
             let [low, high] = self.ranges[k];
-            let near = 3.0 * BORDER * (high - low);
+            let near = 3.0 * self.slack * (high - low);
             self.is_monotone[k] && (q[k] - low <= near || high - q[k] <= near)
         })
     }

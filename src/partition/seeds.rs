@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::alone::Chords;
+use super::alone::{BORDER, Chords};
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
@@ -22,6 +22,8 @@ const MOST: usize = 400_000;
 const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
 const FLAT: f64 = 0.35;
+/// A place this fraction of the patches' size beside them is on them.
+const BESIDE: f64 = 0.02;
 /// An attempt to land is given up when it leaves the patches by this fraction of their size.
 const REACH: f64 = 0.5;
 /// While patches are halved their sizes are kept within this factor.
@@ -132,7 +134,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         if flat && a.is_askew(b) {
             let landing = self.land(a, b, |_| true);
-            let is_done = landing.is_some_and(|landing| self.is_all(a, b, landing));
+            // A curve that passes beside the smallest patches passes through what is around them.
+            let around = if is_small { BESIDE } else { BORDER };
+            let is_done = landing.is_some_and(|landing| self.is_all(a, b, landing, around));
             if is_done {
                 self.certain += 1;
                 return;
@@ -182,11 +186,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// Whether the curve that an attempt has landed on is all that two patches have in common.
-    fn is_all(&self, a: &Facet<'_>, b: &Facet<'_>, landing: Landing) -> bool {
+    fn is_all(&self, a: &Facet<'_>, b: &Facet<'_>, landing: Landing, around: f64) -> bool {
         match landing {
             Landing::Lost => true,
             Landing::On(branch, t) => {
-                Chords::new(a, b).is_some_and(|chords| chords.has_only(&self.branches[branch], t))
+                let branch = &self.branches[branch];
+                Chords::new(a, b, around).is_some_and(|chords| chords.has_only(branch, t))
             }
         }
     }
@@ -200,7 +205,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     ) -> Option<Landing> {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
-        let within = grown(0.02);
+        let within = grown(BESIDE);
         let known = |(at, branch): (usize, &Branch)| {
             let passes = |ranges: &[[f64; 2]; 4]| {
                 let inside = |node: &Node| lies(&node.parameters(), ranges);

@@ -33,6 +33,8 @@ const OF_FACE: usize = 2;
 const OF_FACES: usize = 250;
 /// How far lines through faces go each way, as a share of the domain's size along them.
 const BESIDE: f64 = 0.1;
+/// The least width of faces that must have a clear line, in distances that lines must be clear of edges.
+const THIN: f64 = 20.0;
 /// How often a line that is not clear is drawn again.
 const TRIES: usize = 6;
 /// Questions to the point evaluator, in bodies that each of them asks at most: with more bodies there are fewer columns, …
@@ -281,7 +283,8 @@ impl Prover<'_> {
                 found.redrawn += 1;
             }
         }
-        if found.lines == 0 {
+        // A face that is about as thin as lines must be clear of edges has none.
+        if found.lines == 0 && scene.width(face) > THIN * scene.near {
             found.unseen.push(self.face_name(scene, face));
         }
         found

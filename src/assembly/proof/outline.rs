@@ -10,10 +10,10 @@ use super::spline::{Net, Spline};
 
 /// Halvings of one piece until its hull is as small as rounding.
 const MOST_HALVINGS: usize = 60;
-/// Courses of fewer pieces have as many points in each.
-const FEW: usize = 4;
-/// Pieces this much smaller than an outline are straight, where points inside of it are looked for.
-const STRAIGHT: f64 = 1e-2;
+/// Courses of fewer pieces have more points in each, where they are polygons.
+const FEW: usize = 8;
+/// What rounding may do to a place, as a share of an outline.
+const ROUNDING: f64 = 1e-12;
 
 /// An edge as a loop runs along it.
 pub(super) struct Course<'a> {
@@ -70,8 +70,8 @@ impl Course<'_> {
 pub(super) struct Outline<'a> {
     courses: Vec<Course<'a>>,
     pieces: Vec<Piece>,
-    /// By loop: the signed area of a polygon on it.
-    areas: Vec<f64>,
+    /// By loop: a polygon on it.
+    polygons: Vec<Vec<DVec2>>,
     low: DVec2,
     high: DVec2,
 }
@@ -170,11 +170,7 @@ impl<'a> Outline<'a> {
             }
             self.courses.push(course);
         }
-        let corners = polygon.iter().zip(polygon.iter().cycle().skip(1));
-        let area = corners
-            .map(|(a, b)| 0.5 * (*a - polygon[0]).perp_dot(*b - polygon[0]))
-            .sum();
-        self.areas.push(area);
+        self.polygons.push(polygon);
         // Each begins where the last one ends: what rounding leaves between them would be a hole in the outline.
         let own = &mut self.pieces[first..];
         let Some(mut from) = own.last().map(|last| last.ends[1]) else {
@@ -202,7 +198,13 @@ impl<'a> Outline<'a> {
 
     /// Whether the first loop is the outer one: it runs around more than any other one, and these run the other way.
     pub(super) fn is_in_order(&self) -> bool {
-        self.areas.split_first().is_some_and(|(outer, holes)| {
+        let area = |polygon: &Vec<DVec2>| -> f64 {
+            let corners = polygon.iter().zip(polygon.iter().cycle().skip(1));
+            let parts = corners.map(|(a, b)| (*a - polygon[0]).perp_dot(*b - polygon[0]));
+            0.5 * parts.sum::<f64>()
+        };
+        let areas: Vec<f64> = self.polygons.iter().map(area).collect();
+        areas.split_first().is_some_and(|(outer, holes)| {
             let is_hole = |hole: &f64| outer * hole < 0.0 && outer.abs() > hole.abs();
             holes.iter().all(is_hole)
         })
@@ -244,35 +246,23 @@ impl<'a> Outline<'a> {
         Some(inside)
     }
 
-    /// The middle of the widest gap within it at a height.
+    /// A place within it: the middle of about the widest gap at a height.
     pub(super) fn widest(&self, y: f64) -> Option<DVec2> {
-        let small = STRAIGHT * (self.high - self.low);
         let mut crossings: Vec<f64> = Vec::new();
-        let mut stack: Vec<Part> = Vec::new();
-        for piece in &self.pieces {
-            if y >= piece.low.y && y <= piece.high.y {
-                stack.push(self.part(piece));
-            }
-            while let Some(part) = stack.pop() {
-                if y < part.low.y || y > part.high.y {
-                    continue;
+        for polygon in &self.polygons {
+            for (a, b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+                if (a.y > y) != (b.y > y) {
+                    crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
                 }
-                let is_straight = (part.high - part.low).cmple(small).all();
-                if is_straight || part.halvings == MOST_HALVINGS {
-                    let [a, b] = part.ends();
-                    if (a.y > y) != (b.y > y) {
-                        crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
-                    }
-                    continue;
-                }
-                stack.extend(part.halves());
             }
         }
         crossings.sort_by(f64::total_cmp);
-        crossings
-            .chunks_exact(2)
-            .max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))
-            .map(|gap| DVec2::new(0.5 * (gap[0] + gap[1]), y))
+        let gaps = crossings.chunks_exact(2);
+        let widest = gaps.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        let at = DVec2::new(0.5 * (widest[0] + widest[1]), y);
+        // Between its corners a polygon is not the outline.
+        let slack = ROUNDING * (self.high - self.low);
+        (self.holds(at, slack) == Some(true)).then_some(at)
     }
 }
 

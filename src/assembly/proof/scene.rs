@@ -16,6 +16,9 @@ use crate::partition::{Face, Topology};
 /// A line that meets a face at a smaller sine than this says nothing.
 const GRAZING: f64 = 1e-5;
 
+/// At how many heights points inside a face are looked for at most.
+const HEIGHTS: u32 = 64;
+
 /// Where a line passes through a face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
@@ -217,7 +220,7 @@ impl<'a> Scene<'a> {
     pub(super) fn inside(&self, face: usize) -> impl Iterator<Item = (DVec3, DVec3)> {
         let own = &self.faces[face];
         let (low, high) = own.outline.bounds();
-        (1..).filter_map(move |k| {
+        (1..=HEIGHTS).filter_map(move |k| {
             // Multiples of the golden ratio: spread evenly, and on no height that symmetry prefers.
             let part = (f64::from(k) * 0.618_033_988_749_895).fract();
             let at = own.outline.widest(low.y + part * (high.y - low.y))?;
@@ -232,6 +235,18 @@ impl<'a> Scene<'a> {
                 }
             }
         })
+    }
+
+    /// About how wide a face is across its longest extent (m): its area for the distance that its vertices span.
+    pub(super) fn width(&self, face: usize) -> f64 {
+        let own = &self.topology.faces[face];
+        let ends = own.loops.iter().flatten().flat_map(|(edge, _)| {
+            let ends = self.topology.edges[*edge].ends;
+            ends.map(|end| self.topology.vertices[end].point)
+        });
+        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (low, high) = ends.fold(empty, |(low, high), p| (low.min(p), high.max(p)));
+        own.integral.area / (high - low).length()
     }
 
     /// Whether a face's outer loop comes first.
