@@ -189,9 +189,9 @@ fn off(topology: &Topology, index: usize, beside: &[(usize, bool)]) -> f64 {
     for &(at, backwards) in beside {
         let sheet = &topology.sheets[at];
         if let Some([origin, normal, _]) = sheet.plane {
-            points
-                .iter()
-                .for_each(|point| note(normal.dot(*point - origin).abs()));
+            for point in &points {
+                note(normal.dot(*point - origin).abs());
+            }
             continue;
         }
         let Some(image) = image(topology, edge, at, backwards) else {

@@ -12,6 +12,8 @@ use super::spline::{Net, Spline};
 const MOST_HALVINGS: usize = 60;
 /// Courses of fewer pieces have more points in each, where they are polygons.
 const FEW: usize = 8;
+/// A piece halved so often crosses a height once at most, but by accident.
+const SIMPLE: usize = 3;
 /// What rounding may do to a place, as a share of an outline.
 const ROUNDING: f64 = 1e-12;
 
@@ -246,9 +248,26 @@ impl<'a> Outline<'a> {
         Some(inside)
     }
 
-    /// A place within it: the middle of about the widest gap at a height.
+    /// A place within it: the middle of the widest gap at a height.
     pub(super) fn widest(&self, y: f64) -> Option<DVec2> {
-        let mut crossings: Vec<f64> = Vec::new();
+        // A polygon is quick, and not the outline where that is thin and bent.
+        self.middle(self.of_polygons(y), y)
+            .or_else(|| self.middle(self.exact(y), y))
+    }
+
+    /// The middle of the widest of some gaps, if it lies within the outline.
+    fn middle(&self, mut crossings: Vec<f64>, y: f64) -> Option<DVec2> {
+        crossings.sort_by(f64::total_cmp);
+        let gaps = crossings.chunks_exact(2);
+        let widest = gaps.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        let at = DVec2::new(0.5 * (widest[0] + widest[1]), y);
+        let slack = ROUNDING * (self.high - self.low);
+        (self.holds(at, slack) == Some(true)).then_some(at)
+    }
+
+    /// Where the polygons cross a height.
+    fn of_polygons(&self, y: f64) -> Vec<f64> {
+        let mut crossings = Vec::new();
         for polygon in &self.polygons {
             for (a, b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
                 if (a.y > y) != (b.y > y) {
@@ -256,13 +275,40 @@ impl<'a> Outline<'a> {
                 }
             }
         }
-        crossings.sort_by(f64::total_cmp);
-        let gaps = crossings.chunks_exact(2);
-        let widest = gaps.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-        let at = DVec2::new(0.5 * (widest[0] + widest[1]), y);
-        // Between its corners a polygon is not the outline.
-        let slack = ROUNDING * (self.high - self.low);
-        (self.holds(at, slack) == Some(true)).then_some(at)
+        crossings
+    }
+
+    /// Where the outline itself crosses a height, by bisection.
+    fn exact(&self, y: f64) -> Vec<f64> {
+        let passes = |part: &Part| {
+            let [a, b] = part.ends();
+            (a.y > y) != (b.y > y)
+        };
+        let mut crossings = Vec::new();
+        let mut stack: Vec<Part> = Vec::new();
+        for piece in &self.pieces {
+            if y >= piece.low.y && y <= piece.high.y {
+                stack.push(self.part(piece));
+            }
+            while let Some(mut part) = stack.pop() {
+                if y < part.low.y || y > part.high.y {
+                    continue;
+                }
+                if part.halvings < SIMPLE {
+                    stack.extend(part.halves());
+                    continue;
+                }
+                if !passes(&part) {
+                    continue;
+                }
+                while part.halvings < MOST_HALVINGS {
+                    let [low, high] = part.halves();
+                    part = if passes(&low) { low } else { high };
+                }
+                crossings.push(part.ends()[0].x);
+            }
+        }
+        crossings
     }
 }
 
