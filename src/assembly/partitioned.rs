@@ -10,7 +10,7 @@ use regions::regions;
 use relations::Relations;
 use tables::tables;
 
-use super::kernel::{Cancel, FaceIntegral, FaceSample, Solids};
+use super::kernel::{Cancel, FaceIntegral, Solids};
 use super::labels::Holders;
 use super::measure::{Counts, Measured};
 use super::proof::{Check, Evidence};
@@ -97,14 +97,14 @@ pub(super) fn attempt(
             ..Failed::new(Engine::Partition, remedy.name, why)
         }));
     }
-    match finish(plan, &made) {
+    match finish(plan, made) {
         Ok(made) => Ok(Ok(made)),
         Err(error) => failed(format!("the kernel refuses its topology: {error}")),
     }
 }
 
 #[derive(Debug, thiserror::Error)]
-enum Trouble {
+pub(super) enum Trouble {
     #[error(transparent)]
     Partition(#[from] PartitionError),
     #[error("a body cannot be cut off outside of the domain: {0}")]
@@ -117,7 +117,8 @@ enum Trouble {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-fn partition(
+/// The partition alone.
+pub(super) fn partition(
     plan: &AssemblyPlan,
     owners: &Owners,
     remedy: &Remedy,
@@ -154,9 +155,10 @@ fn partition(
     pool.install(run)
 }
 
-fn finish(
+/// What the partition has made as the kernel's solids, with what it takes to prove them.
+pub(super) fn finish(
     plan: &AssemblyPlan,
-    made: &Partition,
+    made: Partition,
 ) -> Result<Partitioned, super::kernel::BridgeError> {
     let topology = &made.topology;
     let first_shell = 1 + plan.lids.len();
@@ -190,15 +192,15 @@ fn finish(
     Ok(Partitioned {
         evidence: Evidence {
             lids: plan.lids.len(),
-            samples: Some(samples(topology)),
+            topology: Some(made.topology),
             checks: vec![Check {
-                name: "distance of edges from their surfaces and vertices (m)",
-                measured: deviation,
-                bound: 1e-9 * (plan.high() - plan.low()).length(),
+                name: "pairs of patches where more curves than were found are not excluded",
+                measured: made.certificates.uncertain as f64,
+                // Said, not demanded: on rational patches and beside poles cones are wide.
+                bound: (made.certificates.certain + made.certificates.uncertain) as f64,
                 detail: format!(
-                    "{} edges, {} computed curves",
-                    topology.edges.len(),
-                    made.branches
+                    "{} curves; on {} pairs of patches one is alone for certain",
+                    made.branches, made.certificates.certain
                 ),
             }],
         },
@@ -213,23 +215,4 @@ fn deviation(topology: &Topology) -> f64 {
     let edges = topology.edges.iter().map(|edge| edge.deviation);
     let vertices = topology.vertices.iter().map(|vertex| vertex.gap);
     edges.chain(vertices).fold(0.0, f64::max)
-}
-
-fn samples(topology: &Topology) -> Vec<FaceSample> {
-    let of_face = |(face, own): (usize, &partition::Face)| {
-        own.samples
-            .iter()
-            .map(|sample| FaceSample {
-                face,
-                point: sample.point.to_array(),
-                normal: sample.normal.to_array(),
-            })
-            .collect::<Vec<_>>()
-    };
-    topology
-        .faces
-        .iter()
-        .enumerate()
-        .flat_map(of_face)
-        .collect()
 }

@@ -124,16 +124,20 @@ impl HorizonSheet {
         &self.sheet
     }
 
-    /// Whether a point lies above the horizon.
-    pub fn holds(&self, point: DVec3) -> bool {
-        let part = (point.xy() - self.low) / self.extent;
+    /// Its elevation (m).
+    pub fn height(&self, at: DVec2) -> f64 {
+        let part = (at - self.low) / self.extent;
         let inside = part.cmpge(DVec2::ZERO).all() && part.cmple(DVec2::ONE).all();
-        let height = if inside {
+        if inside {
             self.sheet.point(part.x, part.y).z
         } else {
-            self.horizon.height(point.x, point.y)
-        };
-        point.z > height
+            self.horizon.height(at.x, at.y)
+        }
+    }
+
+    /// Whether a point lies above the horizon.
+    pub fn holds(&self, point: DVec3) -> bool {
+        point.z > self.height(point.xy())
     }
 }
 

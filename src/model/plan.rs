@@ -186,7 +186,7 @@ impl AssemblyPlan {
     }
 
     /// Two elevations nearer to each other than this (m) are the same.
-    fn same_level(&self) -> f64 {
+    pub(crate) fn same_level(&self) -> f64 {
         SAME_LEVEL * (self.high() - self.low()).max_element()
     }
 

@@ -8,11 +8,13 @@
 //! - Every operation leaves its operand as it was and returns a new one.
 //! - A parameter outside a domain is moved to the domain's nearest end before evaluation.
 //! - [`interpolate`] passes curves through points; [`enclosure`] answers whether a closed shell holds a point.
+//! - [`pierce`] finds where lines parallel to an axis pass through a surface.
 //! - [`quadrature`] has the nodes that lengths, areas and volumes are summed over.
 
 mod banded;
 mod basis;
 mod bezier;
+pub(crate) mod blossom;
 mod bounds;
 mod closest;
 mod curve;
@@ -24,6 +26,7 @@ pub mod interpolate;
 mod knots;
 mod lattice;
 mod length;
+pub mod pierce;
 pub mod quadrature;
 mod refine;
 mod reverse;

@@ -8,10 +8,9 @@ use super::boxes;
 use super::faces::{Face as TracedFace, HalfEdge};
 use super::hermite::{PARTS, on_sheet};
 use super::quadrature::Integral;
-use super::samples::{self, samples};
 use super::solids::{Parts, Solid as JoinedSolid};
 use super::topology::{
-    CurveShape, Edge, Face, FaceSample, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
+    CurveShape, Edge, Face, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
 };
 use super::tracks::Source;
 use crate::nurbs::Curve;
@@ -39,16 +38,7 @@ impl Topology {
         for ((face, integral), surface) in parts.faces.iter().zip(parts.integrals).zip(surfaces) {
             builder.face(face, *integral, surface);
         }
-        let each = samples::each(parts.faces.len());
-        let samples: Vec<Vec<FaceSample>> = parts
-            .faces
-            .par_iter()
-            .map(|face| samples(&parts.geometry.regions.sheets[face.sheet], face, each))
-            .collect();
         let mut topology = builder.topology;
-        for (face, samples) in topology.faces.iter_mut().zip(samples) {
-            face.samples = samples;
-        }
         let boxes: Vec<Bounds> = parts
             .faces
             .par_iter()
@@ -183,7 +173,6 @@ impl Builder<'_> {
                 [outer, inner]
             },
             integral,
-            samples: Vec::new(),
         });
     }
 

@@ -7,6 +7,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::Certificates;
 use super::along::Along;
 use super::bounds::Bounds;
 use super::check::{Doubt, Faults};
@@ -57,6 +58,8 @@ pub(super) struct Crossings {
     pub(super) doubtful: Vec<usize>,
     /// Where they are too near each other.
     pub(super) doubts: Vec<Doubt>,
+    /// Where a curve was found, whether it is the only one.
+    pub(super) certificates: Certificates,
 }
 
 /// How to look for crossings.
@@ -93,6 +96,7 @@ struct Traced {
     crossings: Vec<Crossing>,
     faults: Faults,
     doubts: Vec<Doubt>,
+    certificates: Certificates,
 }
 
 impl Crossings {
@@ -121,7 +125,10 @@ impl Crossings {
         let mut crossings = Vec::new();
         let mut doubtful = Vec::new();
         let mut doubts = Vec::new();
+        let mut certificates = Certificates::default();
         for one in traced {
+            certificates.certain += one.certificates.certain;
+            certificates.uncertain += one.certificates.uncertain;
             if !one.faults.is_none() {
                 doubtful.extend(one.sheets.map(|sheet| regions.sheets[sheet].region));
             }
@@ -139,6 +146,7 @@ impl Crossings {
                 roots,
                 curves: crossings,
                 triples: Vec::new(),
+                certificates,
             };
         }
         let found: Vec<(Vec<Triple>, usize)> = (0..crossings.len())
@@ -158,6 +166,7 @@ impl Crossings {
         Self {
             doubtful,
             doubts,
+            certificates,
             roots,
             curves: crossings,
             triples: all,
@@ -278,6 +287,7 @@ fn trace(
     }
     let found = |node: Node| march.through(node);
     let mut doubts = Vec::new();
+    let mut certificates = Certificates::default();
     let mut branches = if let Some(heights) = pair.heights {
         let mut search = Contours::new(pair, heights, [clip, far], branches, found, &matters);
         search.run();
@@ -290,6 +300,10 @@ fn trace(
         search.twins = twins;
         search.run();
         faults.undecided += search.undecided + usize::from(search.gave_up());
+        certificates = Certificates {
+            certain: search.certain,
+            uncertain: search.uncertain,
+        };
         search.branches
     };
     let first_new = branches
@@ -315,6 +329,7 @@ fn trace(
         crossings,
         faults,
         doubts,
+        certificates,
     }
 }
 

@@ -16,6 +16,7 @@
 //! **Limits.** Sheets of different regions must cross at an angle or stay apart. Where they touch, or run along
 //! each other, a count in [`Faults`] is not zero and the result must not be used.
 
+mod alone;
 mod along;
 mod arcs;
 mod bernstein;
@@ -42,7 +43,6 @@ mod polygon;
 mod quadrature;
 mod region;
 mod relations;
-mod samples;
 mod scalar;
 mod seeds;
 mod sheet;
@@ -63,7 +63,7 @@ pub use check::{Doubt, Faults};
 pub use quadrature::Integral;
 pub use region::{Membership, Region};
 pub use topology::{
-    CurveShape, Edge, Face, FaceSample, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
+    CurveShape, Edge, Face, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
 };
 
 /// The volume that holds a place; `None` outside of the domain.
@@ -157,6 +157,8 @@ pub struct Partition {
     pub crossing_regions: Vec<(usize, usize)>,
     /// Computed curves.
     pub branches: usize,
+    /// Pairs of patches that a curve was found on.
+    pub certificates: Certificates,
     /// Seconds per stage.
     pub timings: Vec<(&'static str, std::time::Duration)>,
 }
@@ -169,11 +171,21 @@ impl Partition {
             faults,
             doubtful_regions: crossings.doubtful,
             doubts: crossings.doubts,
+            certificates: crossings.certificates,
             crossing_regions: Vec::new(),
             branches: crossings.curves.len(),
             timings: clock.laps,
         }
     }
+}
+
+/// Pairs of patches of sheets that are no heights over one plan, on which a curve was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Certificates {
+    /// Where it is certain to be the only one.
+    pub certain: usize,
+    /// The smallest ones where another one is not excluded.
+    pub uncertain: usize,
 }
 
 /// How far beyond the domain curves are followed, as a fraction of its diagonal.
@@ -258,6 +270,7 @@ pub fn partition(
         doubts: crossings.doubts,
         crossing_regions,
         branches: crossings.curves.len(),
+        certificates: crossings.certificates,
         timings: clock.laps,
     })
 }

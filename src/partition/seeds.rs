@@ -1,11 +1,12 @@
 //! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
 //!
-//! A pair of patches whose normals have no direction in common crosses in at most one simple arc (two arcs, or a
-//! loop, would need parallel normals somewhere), so one place on it is enough. An attempt to land on it that fails says
-//! nothing: the arc may be far from where it is looked for, so the halves are asked.
+//! A pair of patches whose normals have no direction in common crosses in simple arcs, one behind the other: a loop, or two
+//! side by side, would need parallel normals somewhere. So one place on an arc is enough where it is alone ([`Chords`]); else the
+//! halves are asked. An attempt to land on it that fails says nothing either: the arc may be far from where it is looked for.
 
 use glam::DVec3;
 
+use super::alone::{BORDER, Chords};
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
@@ -23,6 +24,8 @@ const ENOUGH: usize = 64;
 const STEEP: f64 = 0.1;
 /// Normals that lean less than this sine are flat enough for one attempt.
 const FLAT: f64 = 0.35;
+/// A place this fraction of the patches' size beside them is on them.
+const BESIDE: f64 = 0.02;
 /// An attempt to land is given up when it leaves the patches by this fraction of their size.
 const REACH: f64 = 0.5;
 /// While patches are halved their sizes are kept within this factor.
@@ -40,7 +43,20 @@ pub(super) struct Search<'a, F> {
     pub(super) twins: bool,
     /// Places where the sheets come too near each other to decide.
     pub(super) undecided: usize,
+    /// Pairs of patches with a curve that is alone there.
+    pub(super) certain: usize,
+    /// Smallest pairs of patches with a curve where another one is not excluded.
+    pub(super) uncertain: usize,
     halvings: usize,
+}
+
+/// Where an attempt to land has ended.
+#[derive(Clone, Copy)]
+enum Landing {
+    /// On a branch, at a parameter of it.
+    On(usize, f64),
+    /// On a curve that cannot be followed.
+    Lost,
 }
 
 impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
@@ -59,6 +75,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             matters,
             twins: false,
             undecided: 0,
+            certain: 0,
+            uncertain: 0,
             halvings: 0,
         }
     }
@@ -118,15 +136,27 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return;
         }
         if flat && a.is_askew(b) {
-            if is_small || self.land(a, b, |_| true) {
-                return;
-            }
-        } else {
-            if flat && a.leans_from(b) && self.land(a, b, |node| clip.holds(node.point())) {
+            let landing = self.land(a, b, |_| true);
+            // A curve that passes beside the smallest patches passes through what is around them.
+            let around = if is_small { BESIDE } else { BORDER };
+            let is_done = landing.is_some_and(|landing| self.is_all(a, b, landing, around));
+            if is_done {
+                self.certain += 1;
                 return;
             }
             if is_small {
-                if !self.land(a, b, |_| true) && !self.passes_by(a, b) {
+                let [u, v] = a.patch.middle();
+                let counts = landing.is_some() && (self.matters)(a.patch.point(u, v));
+                self.uncertain += usize::from(counts);
+                return;
+            }
+        } else {
+            if flat && a.leans_from(b) && self.land(a, b, |node| clip.holds(node.point())).is_some()
+            {
+                return;
+            }
+            if is_small {
+                if self.land(a, b, |_| true).is_none() && !self.passes_by(a, b) {
                     let [u, v] = a.patch.middle();
                     self.undecided += usize::from((self.matters)(a.patch.point(u, v)));
                 }
@@ -158,17 +188,38 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         );
     }
 
-    /// Tries to land on the curve between two patches. Whether there is one, known, or new and wanted.
-    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>, wanted: impl Fn(&Node) -> bool) -> bool {
+    /// Whether the curve that an attempt has landed on is all that two patches have in common.
+    fn is_all(&self, a: &Facet<'_>, b: &Facet<'_>, landing: Landing, around: f64) -> bool {
+        match landing {
+            Landing::Lost => true,
+            Landing::On(branch, t) => {
+                let branch = &self.branches[branch];
+                Chords::new(a, b, around).is_some_and(|chords| chords.has_only(branch, t))
+            }
+        }
+    }
+
+    /// Tries to land on the curve between two patches: on a known one, or on a new one that is wanted.
+    fn land(
+        &mut self,
+        a: &Facet<'_>,
+        b: &Facet<'_>,
+        wanted: impl Fn(&Node) -> bool,
+    ) -> Option<Landing> {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
-        let within = grown(0.02);
-        let known = |branch: &Branch| {
-            let passes = |node: &Node| lies(&node.parameters(), &within);
-            branch.nodes.iter().any(passes)
+        let within = grown(BESIDE);
+        let known = |(at, branch): (usize, &Branch)| {
+            let passes = |ranges: &[[f64; 2]; 4]| {
+                let inside = |node: &Node| lies(&node.parameters(), ranges);
+                branch.nodes.iter().position(inside)
+            };
+            // Rather a node well inside than one beside.
+            let node = passes(&rectangles).or_else(|| passes(&within))?;
+            Some(Landing::On(at, branch.lengths[node]))
         };
-        if self.branches.iter().any(known) {
-            return true;
+        if let Some(landing) = self.branches.iter().enumerate().find_map(known) {
+            return Some(landing);
         }
         // From the middle of the smaller patch, and the place on the larger one that is nearest to it.
         let a_is_smaller = a.patch.bounds.extent() <= b.patch.bounds.extent();
@@ -178,9 +229,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let [s, t] = nearest(&large.patch, small.0);
         let large = large.patch.first_jet(s, t);
         let normals = [small, large].map(|(_, u, v)| u.cross(v));
-        let Some(tangent) = normals[0].cross(normals[1]).try_normalize() else {
-            return false;
-        };
+        let tangent = normals[0].cross(normals[1]).try_normalize()?;
         let (mut q, jets) = if a_is_smaller {
             ([u, v, s, t], [small, large])
         } else {
@@ -189,35 +238,33 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let closing = Closing::Plane(tangent, small.0);
         let around = grown(REACH);
         // Most attempts end with the first step, for which both patches are known.
-        let Some(step) = Step::new(&jets, &q, closing) else {
-            return false;
-        };
+        let step = Step::new(&jets, &q, closing)?;
         step.apply(&mut q);
         let landed = lies(&q, &around)
             && self.pair.newton_within(&mut q, closing, 10, &around)
             && lies(&q, &within);
         if !landed {
-            return false;
+            return None;
         }
         let [a, b] = self.pair.sheets;
         if !a.holds(q[0], q[1]) || !b.holds(q[2], q[3]) {
-            return false;
+            return None;
         }
-        let Some(node) = self.pair.node(q, None) else {
-            return false;
-        };
-        if self.is_traced(&node) {
-            return true;
+        let node = self.pair.node(q, None)?;
+        if let Some(landing) = self.traced(&node) {
+            return Some(landing);
         }
         if !wanted(&node) {
-            return false;
+            return None;
         }
-        match (self.found)(node) {
-            Some(branch) => self.branches.push(branch),
+        let Some(branch) = (self.found)(node) else {
             // A point of a curve that cannot be followed.
-            None => self.undecided += usize::from((self.matters)(node.point())),
-        }
-        true
+            self.undecided += usize::from((self.matters)(node.point()));
+            return Some(Landing::Lost);
+        };
+        let t = branch.project(node.point()).0;
+        self.branches.push(branch);
+        Some(Landing::On(self.branches.len() - 1, t))
     }
 
     /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
@@ -236,17 +283,21 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             .flatten();
         let near = 2.0 * LEAST * self.pair.tolerances.scale;
         landed.is_some_and(|at| {
-            at.sine > STEEP && at.point().distance(node.point()) < near && self.is_traced(&at)
+            at.sine > STEEP
+                && at.point().distance(node.point()) < near
+                && self.traced(&at).is_some()
         })
     }
 
-    /// Whether a known branch passes through a point.
-    fn is_traced(&self, node: &Node) -> bool {
+    /// The known branch that passes through a point.
+    fn traced(&self, node: &Node) -> Option<Landing> {
         let near = (6.0 * self.pair.tolerances.curve / node.sine.max(PARALLEL))
             .max(1e2 * self.pair.tolerances.curve);
-        self.branches
-            .iter()
-            .any(|branch| branch.project(node.point()).1 < near)
+        let passes = |(at, branch): (usize, &Branch)| {
+            let (t, distance) = branch.project(node.point());
+            (distance < near).then_some(Landing::On(at, t))
+        };
+        self.branches.iter().enumerate().find_map(passes)
     }
 
     /// Sheets nearer than curves are computed to are not apart: they touch.

@@ -119,17 +119,6 @@ pub struct Face {
     pub labels: [Label; 2],
     /// Area and flux.
     pub integral: Integral,
-    /// Points of it.
-    pub samples: Vec<FaceSample>,
-}
-
-/// A point inside a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FaceSample {
-    /// The point (m).
-    pub point: DVec3,
-    /// The unit normal along `S_u × S_v`.
-    pub normal: DVec3,
 }
 
 /// A connected piece of a volume.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use clinothem::nurbs::enclosure::Enclosure;
 use clinothem::nurbs::{Curve, KnotVector};
 use clinothem::partition::{
-    CurveShape, Label, Options, Partition, PlaneCurve, Region, Topology, partition,
+    CurveShape, Face, Label, Options, Partition, PlaneCurve, Region, Topology, partition,
 };
 use glam::{DVec2, DVec3};
 
@@ -177,16 +177,85 @@ fn samples_agree_with_the_rule(topology: &Topology, regions: &[Region], rule: Ru
     // Far above the precision of inside tests, far below the size of what is tested.
     let beside = 1e-7 * scale;
     for (at, face) in topology.faces.iter().enumerate() {
-        assert!(!face.samples.is_empty(), "face {at} has no sample");
-        for sample in &face.samples {
-            let around =
-                |beside: f64| [-beside, beside].map(|d| label(sample.point + d * sample.normal));
+        let samples = samples(topology, face);
+        assert!(!samples.is_empty(), "face {at} has no sample");
+        for (point, normal) in samples {
+            let around = |beside: f64| [-beside, beside].map(|d| label(point + d * normal));
             // What is thinner than the distance is looked at from nearer.
             if around(1e-2 * beside) != face.labels {
-                assert_eq!(around(beside), face.labels, "face {at} at {}", sample.point);
+                assert_eq!(around(beside), face.labels, "face {at} at {point}");
             }
         }
     }
+}
+
+/// Points inside a face with its normals there: in the middle of the widest gaps between its loops at some heights.
+fn samples(topology: &Topology, face: &Face) -> Vec<(DVec3, DVec3)> {
+    let sheet = &topology.sheets[face.sheet];
+    let polygons: Vec<Vec<DVec2>> = face
+        .loops
+        .iter()
+        .map(|own| polygon(topology, face, own))
+        .collect();
+    let range = polygons[0]
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+            [low.min(p.y), high.max(p.y)]
+        });
+    let sample = |k: i32| {
+        let y = range[0] + (f64::from(k) * 0.618_033_988_749_895).fract() * (range[1] - range[0]);
+        let mut crossings = Vec::new();
+        for polygon in &polygons {
+            for (a, b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+                if (a.y > y) != (b.y > y) {
+                    crossings.push(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+                }
+            }
+        }
+        crossings.sort_by(f64::total_cmp);
+        let gaps = crossings.chunks_exact(2);
+        let gap = gaps.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        let x = f64::midpoint(gap[0], gap[1]);
+        match sheet.plane {
+            Some([origin, normal, along]) => {
+                Some((origin + along * x + normal.cross(along) * y, normal))
+            }
+            None => Some((sheet.surface.point(x, y), sheet.surface.normal(x, y)?)),
+        }
+    };
+    (1..=6).filter_map(sample).collect()
+}
+
+/// A loop as a fine polygon in the parameters of its surface, or in the directions of its plane.
+fn polygon(topology: &Topology, face: &Face, own: &[(usize, bool)]) -> Vec<DVec2> {
+    let mut points = Vec::new();
+    for &(edge, backwards) in own {
+        let edge = &topology.edges[edge];
+        let at: Box<dyn Fn(f64) -> DVec2> = match topology.sheets[face.sheet].plane {
+            Some([origin, normal, along]) => {
+                let curve = space_curve(&topology.curves[edge.curve.unwrap()]);
+                Box::new(move |t| {
+                    let p = curve.point(t) - origin;
+                    DVec2::new(p.dot(along), p.dot(normal.cross(along)))
+                })
+            }
+            None => {
+                let on = edge.on.iter().find(|on| on.sheet == face.sheet).unwrap();
+                let image = match on.reversed {
+                    Some(image) if backwards => image,
+                    _ => on.forward,
+                };
+                plane_curve(&topology.plane_curves[image])
+            }
+        };
+        let [from, to] = if backwards {
+            [edge.range[1], edge.range[0]]
+        } else {
+            edge.range
+        };
+        points.extend((0..128).map(|k| at(from + (to - from) * f64::from(k) / 128.0)));
+    }
+    points
 }
 
 /// A curve of the topology, as the nurbs module knows it.

@@ -4,15 +4,28 @@
 //! point evaluator's. A general fuse can lose nine tenths of a model with every solid valid; the volume
 //! sum, the faces without a neighbour and the owners all find it.
 
+mod closed;
+#[cfg(test)]
+mod damage;
+#[cfg(test)]
+mod damage_tests;
+mod extrema;
+mod lines;
+mod outline;
 mod samples;
+mod scene;
+mod spline;
+mod tree;
 
 use glam::DVec3;
 
 use super::Options;
-use super::kernel::{BridgeError, Cancel, FaceSample, Solids, Threads, defects};
+use super::kernel::{BridgeError, Cancel, Solids, Threads, defects};
 use super::measure::Measured;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
+use crate::partition::Topology;
+use scene::Scene;
 
 /// The model's tolerance, as a share of the domain's diagonal: ten times what curves are followed to.
 const TOLERANCE: f64 = 1e-10;
@@ -22,6 +35,8 @@ const TOLERANCE: f64 = 1e-10;
 const SUM_TOLERANCE: f64 = 3e-12;
 /// Roundings of the farthest coordinate, by which planes are off too.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+/// How near to an edge a line says nothing, as a share of the domain's diagonal: what edges may be off.
+const NEAR: f64 = 1e-9;
 /// Relative error of the kernel's integrals.
 const KERNEL_VOLUME: f64 = 1e-6;
 /// The domain's argument among the kernel's arguments: its block, and the base and top that bound it there.
@@ -121,8 +136,8 @@ impl From<BridgeError> for ProofError {
 pub(super) struct Evidence {
     /// Lids among the arguments.
     pub(super) lids: usize,
-    /// Points of all faces, if the engine has them.
-    pub(super) samples: Option<Vec<FaceSample>>,
+    /// The tables that the kernel and the files are given, if the engine has them.
+    pub(super) topology: Option<Topology>,
     /// What the engine states itself.
     pub(super) checks: Vec<Check>,
 }
@@ -132,7 +147,7 @@ impl Evidence {
     pub(super) fn of_kernel(lids: usize) -> Self {
         Self {
             lids,
-            samples: None,
+            topology: None,
             checks: Vec::new(),
         }
     }
@@ -152,12 +167,8 @@ pub(super) struct Prover<'a> {
 }
 
 impl Prover<'_> {
-    /// All statements, up to the first group that does not hold.
-    pub(super) fn prove(
-        &self,
-        cancel: &Cancel,
-        progress: &(dyn Fn(f64) + Sync),
-    ) -> Result<Proof, ProofError> {
+    /// All groups of statements, the cheap ones first.
+    fn steps(&self) -> Vec<Step<'_>> {
         let mut steps: Vec<Step<'_>> = vec![
             Box::new(|| Ok(self.evidence.checks.clone())),
             Box::new(|| {
@@ -168,11 +179,26 @@ impl Prover<'_> {
                 ])
             }),
             Box::new(|| Ok(vec![self.sharing()])),
-            Box::new(|| Ok(self.sampled_volumes())),
-            Box::new(|| Ok(vec![self.beside_faces()?])),
         ];
-        // What an engine of ours has made it has checked itself; of a fuse's result the kernel is asked.
-        let is_ours = self.evidence.samples.is_some();
+        let topology = self.evidence.topology.as_ref();
+        if let Some(topology) = topology {
+            steps.push(Box::new(|| {
+                Ok(vec![self.closure(topology), self.deviation(topology)])
+            }));
+            steps.push(Box::new(|| {
+                let scene = self.scene(topology);
+                let mut checks = vec![self.nesting(&scene)];
+                checks.extend(self.lines(&scene)?);
+                Ok(checks)
+            }));
+        }
+        steps.push(Box::new(|| Ok(self.sampled_volumes())));
+        // Lines through every face have asked what lies beside it.
+        if topology.is_none() {
+            steps.push(Box::new(|| Ok(vec![self.beside_faces()?])));
+        }
+        // What an engine of ours has made is judged by its tables; of a fuse's result the kernel is asked.
+        let is_ours = topology.is_some();
         if !is_ours || self.options.proof == Level::Full {
             steps.push(Box::new(|| Ok(vec![self.validity()?])));
             steps.push(Box::new(|| Ok(vec![self.within_solids()?])));
@@ -180,6 +206,16 @@ impl Prover<'_> {
         if is_ours && self.options.proof == Level::Full {
             steps.push(Box::new(|| Ok(vec![self.kernel_volumes()?])));
         }
+        steps
+    }
+
+    /// All statements, up to the first group that does not hold.
+    pub(super) fn prove(
+        &self,
+        cancel: &Cancel,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Proof, ProofError> {
+        let steps = self.steps();
         let mut checks = Vec::new();
         for (i, step) in steps.iter().enumerate() {
             if cancel.is_cancelled() {
@@ -206,11 +242,19 @@ impl Prover<'_> {
         let (low, high) = (self.plan.low(), self.plan.high());
         let farthest = low.abs().max(high.abs()).max_element();
         let own = TOLERANCE * (high - low).length() + ROUNDINGS * farthest;
-        if self.evidence.samples.is_some() {
+        if self.evidence.topology.is_some() {
             own
         } else {
             own.max(super::shapes::EXACT)
         }
+    }
+
+    /// Finished topology, to be followed by lines.
+    fn scene<'b>(&self, topology: &'b Topology) -> Scene<'b> {
+        let (low, high) = (self.plan.low(), self.plan.high());
+        let farthest = low.abs().max(high.abs()).max_element();
+        let near = NEAR * (high - low).length() + ROUNDINGS * farthest;
+        Scene::new(topology, near)
     }
 
     /// Mean distance by which the skin may be off in the sum of volumes (m).

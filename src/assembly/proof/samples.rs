@@ -94,13 +94,7 @@ impl Prover<'_> {
         let tolerance = self.tolerance();
         let faces = self.solids.faces().len().max(1);
         let each = BESIDE_FACES.div_ceil(faces).max(LEAST_A_FACE);
-        let asked;
-        let samples = if let Some(samples) = &self.evidence.samples {
-            samples
-        } else {
-            asked = face_samples(self.solids, each, Threads::All)?;
-            &asked
-        };
+        let samples = face_samples(self.solids, each, Threads::All)?;
         // [the face looks out of this owner's solid, it looks into this one's]
         let mut sides = vec![[None; 2]; faces];
         for solid in self.solids.solids() {

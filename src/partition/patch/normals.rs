@@ -37,6 +37,13 @@ impl Patch {
         (gamma > 1e-6 && lean < 1.0).then(|| (cross / gamma, lean))
     }
 
+    /// Cones that hold its tangents along u and along v, as far as they fit half-spaces.
+    pub(in crate::partition) fn tangents(&self) -> [Option<(DVec3, f64)>; 2] {
+        let mut legs = Legs::default();
+        self.legs(&mut legs);
+        [cone(&legs.u), cone(&legs.v)]
+    }
+
     /// The range of the slopes of the normals at its corners: how far they lean along a direction, against upright.
     /// `None` if one of them is level.
     pub(in crate::partition) fn corner_slopes(
