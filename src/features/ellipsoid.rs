@@ -169,6 +169,40 @@ impl Ellipsoid {
         })
     }
 
+    /// Whether it holds a point. On its surface that is a matter of rounding.
+    pub fn contains(&self, point: DVec3) -> bool {
+        self.unit(point).length_squared() < 1.0
+    }
+
+    /// Whether its surface comes within a distance of a point (m), to first order of that.
+    pub fn is_near(&self, point: DVec3, distance: f64) -> bool {
+        let unit = self.unit(point);
+        let length = unit.length();
+        let off = (length - 1.0).abs();
+        let [shortest, longest] = self.axes.iter().fold([f64::INFINITY, 0.0], |range, axis| {
+            [axis.length().min(range[0]), axis.length().max(range[1])]
+        });
+        // One unit of the unit sphere is at least the shortest semi-axis, at most the longest.
+        if off * shortest > distance {
+            return false;
+        }
+        if off * longest <= distance {
+            return true;
+        }
+        // The gradient of the length by the point, of which `off` is the change.
+        let unit = unit / length;
+        let gradient = (0..3).fold(DVec3::ZERO, |sum, i| {
+            sum + self.axes[i] * (unit[i] / self.axes[i].length_squared())
+        });
+        off <= distance * gradient.length()
+    }
+
+    /// A point in the frame in which it is the unit sphere. Its semi-axes are at right angles.
+    fn unit(&self, point: DVec3) -> DVec3 {
+        let from = point - self.center;
+        DVec3::from_array(self.axes.map(|axis| from.dot(axis) / axis.length_squared()))
+    }
+
     /// Its centre.
     pub fn center(&self) -> DVec3 {
         self.center

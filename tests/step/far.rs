@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use clinothem::assembly::Engine;
 use clinothem::export::step::{Protocol, write_assembly, write_shared, write_surfaces};
 use clinothem::model::selection::Selection;
-use occt_bridge::{LengthUnit, ShapeKind, volume};
+use occt_bridge::{LengthUnit, ShapeKind, area, volume};
 
 use super::assembled::{Built, checked, source};
 use super::entities::{Entities, reals};
@@ -15,6 +15,8 @@ use super::{Written, assert_valid, near};
 const UNITS: [(LengthUnit, f64); 2] = [(LengthUnit::Metre, 1.0), (LengthUnit::Millimetre, 1e3)];
 const CHANNELS: &str = include_str!("../../models/far/channels.toml");
 const STRATA: &str = include_str!("../../models/far/strata.toml");
+/// Mean distance by which skins may move (m): control points move by up to 6e-8 m, to either side.
+const MOVED: f64 = 5e-9;
 /// What makes the channels near the origin of the far ones.
 const NEAR: [&str; 4] = [
     "domain.x=[0, 1000]",
@@ -55,20 +57,23 @@ fn assert_read(built: &Built, relative: f64) {
         Entities::of(&written.text()).check();
     }
     for (unit, scale) in UNITS {
-        let mut parts: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        let mut parts: BTreeMap<String, Vec<(f64, f64)>> = BTreeMap::new();
         for part in whole.read_in(unit) {
             assert_eq!(part.shape.count(ShapeKind::Solid).unwrap(), 1);
             assert_valid(std::slice::from_ref(&part.shape));
             let size = volume(&part.shape, 1e-10).unwrap() / scale.powi(3);
+            let area = area(&part.shape, 1e-4).unwrap() / scale.powi(2);
             let name = part.name.split('#').next().unwrap().to_owned();
-            parts.entry(name).or_default().push(size);
+            parts.entry(name).or_default().push((size, area));
         }
         for (at, rules) in realisation.volumes.iter().enumerate() {
             let told = built.assembly.measured.pieces_of(at);
             let read = parts.remove(&rules.name).unwrap_or_default();
             assert_eq!(read.len(), told.len(), "{} in {unit:?}", rules.name);
-            for (size, piece) in read.iter().zip(told) {
-                near(*size, piece.size, relative);
+            for ((size, area), piece) in read.iter().zip(told) {
+                let off = (size - piece.size).abs();
+                let bound = relative * piece.size + MOVED * area;
+                assert!(off < bound, "{}: {size} for {}", rules.name, piece.size);
             }
         }
         assert!(parts.is_empty(), "{parts:?}");
@@ -142,7 +147,7 @@ fn world_coordinates_times_a_thousand_are_exact_and_less_than_a_micrometre_from_
     let text = assembly(&built).text();
     let entities = Entities::of(&text);
     for point in points(&entities).into_values() {
-        for (axis, step) in [(0, 2.0_f64.powi(-24)), (1, 2.0_f64.powi(-20))] {
+        for (axis, step) in [(0, 2.0_f64.powi(-27)), (1, 2.0_f64.powi(-23))] {
             let multiple = point[axis] / step;
             assert_eq!(multiple, multiple.round(), "{point:?}");
             // 1000 = 125 · 8: the product has seven bits more.
@@ -194,9 +199,9 @@ fn near_the_origin_nothing_is_rounded_and_the_accuracy_is_a_tenth_of_a_micrometr
     assert!(text.contains("LENGTH_MEASURE(1.E-07)"));
     let places: Vec<[f64; 3]> = points(&Entities::of(&text)).into_values().collect();
     let sheets = near_by.realisation.instances[0].body.sheets().unwrap();
-    let exact = sheets[0].1.net().iter();
-    let exact = exact.filter(|wanted| places.contains(&wanted.to_array()));
-    assert!(exact.count() > 20);
+    let net = sheets.iter().flat_map(|(_, sheet)| sheet.net());
+    let exact = net.filter(|wanted| places.contains(&wanted.to_array()));
+    assert!(exact.count() > 5);
     // Far away it says how far its points may be off.
     let text = assembly(&built(STRATA, &[])).text();
     let told = text.split("LENGTH_MEASURE(").nth(1).unwrap();

@@ -10,8 +10,8 @@
 //! - the curve of an edge begins and ends at the edge's vertices: in the middle of a longer curve no number is exact;
 //! - such curves are polynomial: a quotient is not exact either.
 //!
-//! Coordinates move by less than a micrometre in UTM coordinates; the file states how exact its points are. Models near the origin are
-//! written as they are.
+//! UTM coordinates move by less than a tenth of a micrometre; the file states how exact its points are. Models near the origin
+//! are written as they are.
 
 mod polynomial;
 
@@ -24,8 +24,8 @@ use crate::nurbs::{Curve, KnotVector};
 /// Coordinates up to this one (m) are near: there, neighbouring numbers of millimetres are closer by a factor of ten than
 /// points that are one.
 const NEAR: f64 = 65_536.0;
-/// Bits that the largest coordinate has below the step: seven for the factor 1000, three for sums.
-const SPARE: i32 = 10;
+/// Bits that the largest coordinate has below the step: 1000 = 125 · 8 has seven.
+const SPARE: i32 = 7;
 
 /// Makes the geometry of a model fit to be read, if it is far from the origin. Returns how exact its points are (m), for a model
 /// whose edges are as far as `tolerance` from where they belong.
