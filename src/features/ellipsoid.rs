@@ -245,6 +245,40 @@ mod tests {
         steps().flat_map(move |u| steps().map(move |v| (u, v)))
     }
 
+    #[test]
+    fn a_point_is_inside_and_near_as_the_closed_surface_says() {
+        let ellipsoid = TILTED.build().unwrap();
+        let shell = Enclosure::new(vec![ellipsoid.skin().clone()]).unwrap();
+        let (low, high) = ellipsoid.bounds();
+        let mut counts = [0; 4];
+        for k in 0..4000 {
+            let part = |ratio: f64| (f64::from(k) * ratio).fract();
+            let unit = DVec3::new(
+                part(0.819_172_513),
+                part(0.671_043_607),
+                part(0.549_700_478),
+            );
+            let point = low + (high - low) * unit;
+            assert_eq!(ellipsoid.contains(point), shell.contains(point), "{point}");
+            counts[usize::from(ellipsoid.contains(point))] += 1;
+        }
+        // Points at known distances from the surface.
+        for (u, v) in grid(12) {
+            let Some(normal) = ellipsoid.skin().normal(u, v) else {
+                continue;
+            };
+            for off in [-1e-3, 1e-3, -1e-6, 1e-6_f64] {
+                let point = ellipsoid.skin().point(u, v) + off * normal;
+                assert_eq!(ellipsoid.contains(point), off < 0.0);
+                assert!(ellipsoid.is_near(point, 1.01 * off.abs()));
+                assert!(!ellipsoid.is_near(point, 0.99 * off.abs()));
+                counts[2 + usize::from(off > 0.0)] += 1;
+            }
+        }
+        assert!(counts.iter().all(|count| *count > 200), "{counts:?}");
+        assert!(ellipsoid.is_near(TILTED.center, 31.0) && !ellipsoid.is_near(TILTED.center, 4.9));
+    }
+
     /// (first, second, third) / semi-axes, with the rotation written out by its angles.
     fn coordinates(design: &EllipsoidDesign, p: DVec3) -> [f64; 3] {
         let d = p - design.center;

@@ -151,7 +151,11 @@ fn counts(reaches: &[Reach], size: DVec3) -> [usize; 3] {
         / reaches.len().max(1) as f64;
     let along = |axis: usize| {
         let wanted = size[axis] / mean[axis].max(size[axis] / MOST_ALONG);
-        if wanted.is_finite() { wanted.clamp(1.0, MOST_ALONG) as usize } else { 1 }
+        if wanted.is_finite() {
+            wanted.clamp(1.0, MOST_ALONG) as usize
+        } else {
+            1
+        }
     };
     let mut counts = [along(0), along(1), along(2)];
     let most = MOST.min(A_BODY * (reaches.len() + 1));

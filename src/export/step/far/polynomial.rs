@@ -110,7 +110,13 @@ mod tests {
     fn half_ellipse(center: DVec3) -> Curve {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let knots = vec![0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0];
-        let plan = [(40.0, 0.0), (40.0, 5.0), (0.0, 5.0), (-40.0, 5.0), (-40.0, 0.0)];
+        let plan = [
+            (40.0, 0.0),
+            (40.0, 5.0),
+            (0.0, 5.0),
+            (-40.0, 5.0),
+            (-40.0, 0.0),
+        ];
         let points = plan.map(|(x, z)| center + DVec3::new(x, 0.0, z));
         let weights = vec![1.0, half, 1.0, half, 1.0];
         Curve::rational(KnotVector::new(2, knots).unwrap(), points.to_vec(), weights).unwrap()
@@ -131,7 +137,11 @@ mod tests {
         }
         let inner = found.knots().distinct();
         assert!(inner.len() > 4 && inner.len() < 64);
-        assert!(inner[1..inner.len() - 1].iter().all(|(_, times)| *times == 4));
+        assert!(
+            inner[1..inner.len() - 1]
+                .iter()
+                .all(|(_, times)| *times == 4)
+        );
     }
 
     #[test]
@@ -147,7 +157,11 @@ mod tests {
             let u = f64::from(i) / 1000.0;
             found.point(u).distance(curve.point(u)) < 1.2e-9
         }));
-        let corner = found.knots().distinct().into_iter().find(|knot| knot.0 == 0.5);
+        let corner = found
+            .knots()
+            .distinct()
+            .into_iter()
+            .find(|knot| knot.0 == 0.5);
         assert_eq!(corner.unwrap().1, 5);
     }
 }
