@@ -54,12 +54,14 @@ fn assert_read(built: &Built, relative: f64) {
     for written in [&whole, &shared] {
         Entities::of(&written.text()).check();
     }
+    // Asked of the reader's integrals, which take long for less.
+    let eps = (0.1 * relative).max(1e-10);
     for (unit, scale) in UNITS {
         let mut parts: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         for part in whole.read_in(unit) {
             assert_eq!(part.shape.count(ShapeKind::Solid).unwrap(), 1);
             assert_valid(std::slice::from_ref(&part.shape));
-            let size = volume(&part.shape, 1e-10).unwrap() / scale.powi(3);
+            let size = volume(&part.shape, eps).unwrap() / scale.powi(3);
             let name = part.name.split('#').next().unwrap().to_owned();
             parts.entry(name).or_default().push(size);
         }
@@ -82,7 +84,7 @@ fn assert_read(built: &Built, relative: f64) {
         );
         let size: f64 = built.assembly.measured.pieces.iter().map(|p| p.size).sum();
         near(
-            volume(&all.shape, 1e-10).unwrap() / scale.powi(3),
+            volume(&all.shape, eps).unwrap() / scale.powi(3),
             size,
             relative,
         );
@@ -109,7 +111,10 @@ fn crossing_channels_in_world_coordinates_are_read_as_they_were_built() {
 
 #[test]
 fn ellipsoids_in_world_coordinates_are_read_as_they_were_built() {
-    assert_read(&built(CHANNELS, &[]), INTEGRALS);
+    let selection = super::assembled::without(&["belt"]);
+    let model = super::assembled::from_text(CHANNELS, &[]);
+    let built = Built::new(model, &selection, Engine::Partition).unwrap();
+    assert_read(&built, INTEGRALS);
 }
 
 #[test]
