@@ -46,26 +46,43 @@ fn assembly(built: &Built) -> Written {
 
 /// Both flavours hold the solids that were built, valid and as large, for readers in metres and in millimetres.
 fn assert_read(built: &Built, relative: f64) {
-    let whole = assembly(built);
+    assert_assembly_read(built, relative);
     let (model, realisation) = (&built.model, &built.realisation);
     let shared = Written::save(|path| {
         write_shared(path, model, realisation, &built.assembly, Protocol::Ap214)
     });
-    for written in [&whole, &shared] {
-        Entities::of(&written.text()).check();
+    Entities::of(&shared.text()).check();
+    for (unit, scale) in UNITS {
+        let [all] = &shared.read_in(unit)[..] else {
+            panic!("not one part")
+        };
+        let count = |kind| all.shape.count(kind).unwrap();
+        assert_eq!(count(ShapeKind::Solid), built.solids());
+        assert_eq!(count(ShapeKind::Face), built.assembly.measured.faces);
+        let size: f64 = built.assembly.measured.pieces.iter().map(|p| p.size).sum();
+        let read = volume(&all.shape, asked(relative)).unwrap();
+        near(read / scale.powi(3), size, relative);
     }
-    // Asked of the reader's integrals, which take long for less.
-    let eps = (0.1 * relative).max(1e-10);
+}
+
+/// What is asked of the reader's integrals, which take long for less.
+fn asked(relative: f64) -> f64 {
+    (0.1 * relative).max(1e-10)
+}
+
+fn assert_assembly_read(built: &Built, relative: f64) {
+    let written = assembly(built);
+    Entities::of(&written.text()).check();
     for (unit, scale) in UNITS {
         let mut parts: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-        for part in whole.read_in(unit) {
+        for part in written.read_in(unit) {
             assert_eq!(part.shape.count(ShapeKind::Solid).unwrap(), 1);
             assert_valid(std::slice::from_ref(&part.shape));
-            let size = volume(&part.shape, eps).unwrap() / scale.powi(3);
+            let size = volume(&part.shape, asked(relative)).unwrap() / scale.powi(3);
             let name = part.name.split('#').next().unwrap().to_owned();
             parts.entry(name).or_default().push(size);
         }
-        for (at, rules) in realisation.volumes.iter().enumerate() {
+        for (at, rules) in built.realisation.volumes.iter().enumerate() {
             let told = built.assembly.measured.pieces_of(at);
             let read = parts.remove(&rules.name).unwrap_or_default();
             assert_eq!(read.len(), told.len(), "{} in {unit:?}", rules.name);
@@ -74,20 +91,6 @@ fn assert_read(built: &Built, relative: f64) {
             }
         }
         assert!(parts.is_empty(), "{parts:?}");
-        let [all] = &shared.read_in(unit)[..] else {
-            panic!("not one part")
-        };
-        assert_eq!(all.shape.count(ShapeKind::Solid).unwrap(), built.solids());
-        assert_eq!(
-            all.shape.count(ShapeKind::Face).unwrap(),
-            built.assembly.measured.faces
-        );
-        let size: f64 = built.assembly.measured.pieces.iter().map(|p| p.size).sum();
-        near(
-            volume(&all.shape, eps).unwrap() / scale.powi(3),
-            size,
-            relative,
-        );
     }
 }
 
@@ -114,7 +117,8 @@ fn ellipsoids_in_world_coordinates_are_read_as_they_were_built() {
     let selection = super::assembled::without(&["belt"]);
     let model = super::assembled::from_text(CHANNELS, &[]);
     let built = Built::new(model, &selection, Engine::Partition).unwrap();
-    assert_read(&built, INTEGRALS);
+    // Some are wholly enclosed, which the shared flavour cannot tell.
+    assert_assembly_read(&built, INTEGRALS);
 }
 
 #[test]
