@@ -24,7 +24,7 @@ pub(super) struct Cells {
     /// Cells per metre.
     per_metre: DVec3,
     counts: [usize; 3],
-    cells: Vec<Cell>,
+    all: Vec<Cell>,
 }
 
 /// What may hold a place of a cell.
@@ -33,7 +33,7 @@ struct Cell {
     /// The volume that holds all of the cell at some time, whatever was there before.
     first: usize,
     /// The younger ones that may hold a place of it, oldest first.
-    younger: Vec<u32>,
+    younger: Vec<usize>,
 }
 
 /// Where a body certainly holds nothing, and where everything.
@@ -95,7 +95,7 @@ impl Cells {
             low,
             per_metre: DVec3::new(nx as f64, ny as f64, nz as f64) / size,
             counts,
-            cells: vec![empty; nx * ny * nz],
+            all: vec![empty; nx * ny * nz],
         };
         for (at, reach) in reaches.iter().enumerate() {
             let body = at + 1;
@@ -112,12 +112,12 @@ impl Cells {
                 for z in from[2]..=to[2] {
                     let floor = self.low.z + z as f64 / self.per_metre.z;
                     let place = self.index([x, y, z]);
-                    let cell = &mut self.cells[place];
+                    let cell = &mut self.all[place];
                     if takes_everything && floor > reach.above {
                         cell.first = body;
                         cell.younger.clear();
                     } else {
-                        cell.younger.push(body as u32);
+                        cell.younger.push(body);
                     }
                 }
             }
@@ -126,20 +126,29 @@ impl Cells {
 
     /// The volume that holds a place at some time, and the younger ones that may hold it after that, oldest first.
     pub(super) fn at(&self, point: DVec3) -> (usize, impl Iterator<Item = usize>) {
-        let cell = &self.cells[self.index(self.place(point))];
-        (cell.first, cell.younger.iter().map(|body| *body as usize))
+        let cell = &self.all[self.index(self.place(point))];
+        (cell.first, cell.younger.iter().copied())
     }
 
     /// The cell of a place, or the one nearest to it.
     fn place(&self, point: DVec3) -> [usize; 3] {
         let at = (point - self.low) * self.per_metre;
-        // What is below 0 becomes 0.
-        std::array::from_fn(|axis| (at[axis] as usize).min(self.counts[axis] - 1))
+        std::array::from_fn(|axis| whole(at[axis]).min(self.counts[axis] - 1))
     }
 
     fn index(&self, [x, y, z]: [usize; 3]) -> usize {
         (x * self.counts[1] + y) * self.counts[2] + z
     }
+}
+
+/// The whole part of a number; 0 of what is below it, or no number.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a float becomes the nearest whole number that there is"
+)]
+fn whole(value: f64) -> usize {
+    value as usize
 }
 
 /// Cells along the axes: about as long as bodies are, but no more of them than there is use for.
@@ -151,11 +160,7 @@ fn counts(reaches: &[Reach], size: DVec3) -> [usize; 3] {
         / reaches.len().max(1) as f64;
     let along = |axis: usize| {
         let wanted = size[axis] / mean[axis].max(size[axis] / MOST_ALONG);
-        if wanted.is_finite() {
-            wanted.clamp(1.0, MOST_ALONG) as usize
-        } else {
-            1
-        }
+        whole(wanted.min(MOST_ALONG)).max(1)
     };
     let mut counts = [along(0), along(1), along(2)];
     let most = MOST.min(A_BODY * (reaches.len() + 1));

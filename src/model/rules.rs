@@ -153,13 +153,13 @@ impl Rules {
     pub fn new(volumes: &[VolumeRules]) -> Self {
         // Instances of a feature have the same selectors: each is resolved once.
         let mut known: Vec<(&Selector, Chosen)> = Vec::new();
-        let mut chosen = |selector| match known.iter().find(|one| one.0 == selector) {
-            Some((_, chosen)) => chosen.clone(),
-            None => {
-                let chosen = Chosen::resolve(selector, volumes);
-                known.push((selector, chosen.clone()));
-                chosen
+        let mut chosen = |selector| {
+            if let Some((_, chosen)) = known.iter().find(|one| one.0 == selector) {
+                return chosen.clone();
             }
+            let chosen = Chosen::resolve(selector, volumes);
+            known.push((selector, chosen.clone()));
+            chosen
         };
         let mut resolved = Vec::with_capacity(volumes.len());
         for volume in volumes {

@@ -140,6 +140,7 @@ impl Curve {
     }
 
     /// The same curve elsewhere.
+    #[must_use]
     pub fn moved(&self, by: DVec3) -> Self {
         let mut curve = self.clone();
         for point in &mut curve.points {

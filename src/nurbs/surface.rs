@@ -160,6 +160,7 @@ impl Surface {
     }
 
     /// The same surface elsewhere.
+    #[must_use]
     pub fn moved(&self, by: DVec3) -> Self {
         let mut surface = self.clone();
         for point in &mut surface.net {

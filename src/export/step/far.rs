@@ -25,7 +25,7 @@ use crate::nurbs::{Curve, KnotVector};
 /// points that are one.
 const NEAR: f64 = 65_536.0;
 /// Bits that the largest coordinate has below the step: 1000 = 125 · 8 has seven.
-const SPARE: i32 = 7;
+const SPARE: u32 = 7;
 
 /// Makes the geometry of a model fit to be read, if it is far from the origin. Returns how exact its points are (m), for a model
 /// whose edges are as far as `tolerance` from where they belong.
@@ -41,7 +41,9 @@ pub(super) fn settle(boundary: &mut Boundary, tolerance: f64) -> f64 {
         match surface {
             Surface::Plane { origin, .. } => lattice.settle(origin),
             Surface::BSpline { poles, .. } => {
-                poles.iter_mut().for_each(|pole| lattice.settle(pole));
+                for pole in poles {
+                    lattice.settle(pole);
+                }
             }
         }
     }
@@ -113,7 +115,9 @@ impl Lattice {
         match &mut own {
             Path::Line { origin, .. } => self.settle(origin),
             Path::BSpline { poles, .. } => {
-                poles.iter_mut().for_each(|pole| self.settle(pole));
+                for pole in &mut *poles {
+                    self.settle(pole);
+                }
                 let last = poles.len() - 1;
                 for (at, end) in [0, last].into_iter().zip(ends) {
                     let gap = DVec3::from_array(poles[at]).distance(DVec3::from_array(end));
@@ -129,8 +133,7 @@ impl Lattice {
 
 /// The power of two that is so many bits above the last one of a number.
 fn step(largest: f64) -> f64 {
-    let exponent = largest.log2().floor() as i32;
-    2.0_f64.powi(exponent - (f64::MANTISSA_DIGITS as i32 - 1) + SPARE)
+    largest.log2().floor().exp2() * f64::EPSILON * f64::from(1_u32 << SPARE)
 }
 
 /// A spline between two parameters; none if it is a line, or what our own splines cannot be.

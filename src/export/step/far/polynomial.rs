@@ -103,6 +103,7 @@ fn joined(pieces: &[Piece]) -> Option<Curve> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
 
