@@ -513,14 +513,13 @@ fn what_is_hard_to_mesh_is_told_with_what_to_set() {
 
 #[test]
 fn the_owner_of_a_place_is_the_one_that_asking_all_bodies_gives() {
-    let layers: String = (0..60)
-        .map(|i| {
-            format!(
-                "[[feature]]\nid = \"l{i}\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = {{ level = {} }}\n",
-                f64::from(i - 60)
-            )
-        })
-        .collect();
+    let layer = |i: i32| {
+        format!(
+            "[[feature]]\nid = \"l{i}\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = {{ level = {} }}\n",
+            i - 60
+        )
+    };
+    let layers = (0..60).map(layer).collect::<Vec<_>>().concat();
     let domain = "name = \"layers\"\n[domain]\nx = [0, 10]\ny = [0, 10]\nz = [-61, 0]\nfacies = \"mud\"\n[facies.mud]\n[facies.sand]\n";
     let nested = include_str!("../models/rules/nested.toml");
     let protected = include_str!("../models/rules/protected.toml");
