@@ -510,3 +510,44 @@ fn what_is_hard_to_mesh_is_told_with_what_to_set() {
     let both = advice(&["feature.lower.toe=0.3", "feature.upper.toe=0.1"]);
     assert_eq!(both.len(), 1, "{both:?}");
 }
+
+#[test]
+fn the_owner_of_a_place_is_the_one_that_asking_all_bodies_gives() {
+    let layer = |i: i32| {
+        format!(
+            "[[feature]]\nid = \"l{i}\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = {{ level = {} }}\n",
+            i - 60
+        )
+    };
+    let layers = (0..60).map(layer).collect::<Vec<_>>().concat();
+    let domain = "name = \"layers\"\n[domain]\nx = [0, 10]\ny = [0, 10]\nz = [-61, 0]\nfacies = \"mud\"\n[facies.mud]\n[facies.sand]\n";
+    let nested = include_str!("../models/rules/nested.toml");
+    let protected = include_str!("../models/rules/protected.toml");
+    let coastal = include_str!("../models/coastal/coastal.toml");
+    let undulating = include_str!("../models/strata/undulating.toml");
+    let nodules = include_str!("../models/nodules/nodules.toml");
+    let far = include_str!("../models/far/channels.toml");
+    let layers = format!("{domain}{layers}");
+    for text in [
+        BELT, nested, protected, coastal, undulating, nodules, far, &layers,
+    ] {
+        let realisation = realise(text, &[]);
+        let owners = Owners::new(&realisation).unwrap();
+        let (low, high) = (realisation.extent.low(), realisation.extent.high());
+        let mut seen = std::collections::BTreeSet::new();
+        let mut state = 7;
+        for _ in 0..3000 {
+            let part = DVec3::new(unit(&mut state), unit(&mut state), unit(&mut state));
+            let point = low + (high - low) * part;
+            let Some(owner) = owners.at(point) else {
+                continue;
+            };
+            let all = realisation
+                .rules
+                .owner(|volume| owners.inside(volume, point));
+            assert_eq!(owner, all, "{point}");
+            seen.insert(owner);
+        }
+        assert!(seen.len() > 2);
+    }
+}

@@ -259,12 +259,10 @@ class Taker {
     const TopoDS_Vertex first = TopExp::FirstVertex(edge);
     const TopoDS_Vertex last = TopExp::LastVertex(edge);
     if (first.IsNull() || last.IsNull()) throw Refused("an edge has no ends");
-    BoundaryEdgeRow row{BRep_Tool::Degenerated(edge) == Standard_True, 0, static_cast<std::uint32_t>(vertices_.Add(first)) - 1,
+    BoundaryEdgeRow row{BRep_Tool::Degenerated(edge) == Standard_True, 0, 0.0, 0.0, static_cast<std::uint32_t>(vertices_.Add(first)) - 1,
                         static_cast<std::uint32_t>(vertices_.Add(last)) - 1};
     if (!row.degenerate) {
-      double low;
-      double high;
-      const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, low, high);
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, row.from, row.to);
       if (curve.IsNull()) throw Refused("an edge has no curve");
       row.curve = curves_.index(curve);
     }

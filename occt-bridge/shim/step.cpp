@@ -39,10 +39,10 @@ void set(const char* name, int value) {
 }
 
 // Before a reader is made: it reads these when it is.
-void prepare() {
+void prepare(const std::string& unit) {
   Message::DefaultMessenger()->ChangePrinters().Clear();  // it would write to standard output
   STEPControl_Controller::Init();
-  set("xstep.cascade.unit", "M");
+  set("xstep.cascade.unit", unit.c_str());
   set("read.step.nonmanifold", 1);
 }
 
@@ -177,10 +177,10 @@ std::unique_ptr<ShapeHandle> ReadParts::shape(std::size_t index) const {
   return handle(shapes[index]);
 }
 
-std::unique_ptr<ReadParts> read_parts(rust::Str path, rust::Vec<ReadPartData>& tables) {
+std::unique_ptr<ReadParts> read_parts(rust::Str path, rust::Str unit, rust::Vec<ReadPartData>& tables) {
   const std::string name(path);
   if (!std::ifstream(name, std::ios::binary)) throw NoFile("cannot open " + name);
-  prepare();
+  prepare(std::string(unit));
   Document document;
   STEPCAFControl_Reader reader;
   reader.SetColorMode(Standard_True);

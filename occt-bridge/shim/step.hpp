@@ -11,6 +11,6 @@ struct ReadParts {
   std::unique_ptr<ShapeHandle> shape(std::size_t index) const;
 };
 
-std::unique_ptr<ReadParts> read_parts(rust::Str path, rust::Vec<ReadPartData>& tables);
+std::unique_ptr<ReadParts> read_parts(rust::Str path, rust::Str unit, rust::Vec<ReadPartData>& tables);
 
 }  // namespace clinothem::occt

@@ -51,10 +51,12 @@ pub enum Path<const N: usize> {
 }
 
 /// A piece of a curve between two vertices, run through in the curve's direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryEdge {
     /// Index of its curve; `None` if it is a point, the pole of a surface.
     pub curve: Option<usize>,
+    /// The piece of the curve that it is, as parameters.
+    pub range: [f64; 2],
     /// Index of its first vertex.
     pub start: usize,
     /// Index of its last vertex.
@@ -190,6 +192,7 @@ fn pair(code: u32) -> (usize, bool) {
 fn edge(row: &bridge::BoundaryEdgeRow) -> BoundaryEdge {
     BoundaryEdge {
         curve: (!row.degenerate).then_some(row.curve as usize),
+        range: [row.from, row.to],
         start: row.start as usize,
         end: row.end as usize,
     }

@@ -165,6 +165,8 @@ pub(crate) mod bridge {
     struct BoundaryEdgeRow {
         degenerate: bool,
         curve: u32,
+        from: f64,
+        to: f64,
         start: u32,
         end: u32,
     }
@@ -330,7 +332,11 @@ pub(crate) mod bridge {
             parallel: bool,
         ) -> Result<Vec<MeshData>>;
 
-        fn read_parts(path: &str, tables: &mut Vec<ReadPartData>) -> Result<UniquePtr<ReadParts>>;
+        fn read_parts(
+            path: &str,
+            unit: &str,
+            tables: &mut Vec<ReadPartData>,
+        ) -> Result<UniquePtr<ReadParts>>;
         fn shape(self: &ReadParts, index: usize) -> Result<UniquePtr<ShapeHandle>>;
 
         fn boundary_of(

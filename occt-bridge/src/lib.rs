@@ -56,7 +56,7 @@ pub use partition::{
 };
 pub use shape::{Shape, ShapeKind, compound, set_threads, version};
 pub use solids::{Solid, SolidFace, Solids};
-pub use step::{ReadPart, read_step};
+pub use step::{LengthUnit, ReadPart, read_step, read_step_in};
 pub use topology::{
     Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology, box_solid, faces, solid,
 };

@@ -28,17 +28,35 @@ pub struct ReadPart {
     pub color: Option<[u8; 3]>,
     /// Layer.
     pub layer: Option<String>,
-    /// The part, in metres, where it is in the assembly.
+    /// The part, where it is in the assembly.
     pub shape: Shape,
+}
+
+/// What a reader counts in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Metres.
+    Metre,
+    /// Millimetres, as most programs do.
+    Millimetre,
 }
 
 /// Reads the parts of a STEP file, in metres whatever unit the file has. Faces that several shells of one shape share are there
 /// once, and closed shells without solids become solids.
 pub fn read_step(path: &Path) -> Result<Vec<ReadPart>, BridgeError> {
+    read_step_in(path, LengthUnit::Metre)
+}
+
+/// The same in another unit.
+pub fn read_step_in(path: &Path, unit: LengthUnit) -> Result<Vec<ReadPart>, BridgeError> {
     let operation = "reading STEP";
+    let unit = match unit {
+        LengthUnit::Metre => "M",
+        LengthUnit::Millimetre => "MM",
+    };
     let mut tables = Vec::new();
     let _guard = lock();
-    let parts = bridge::read_parts(path_text(path)?, &mut tables)
+    let parts = bridge::read_parts(path_text(path)?, unit, &mut tables)
         .map_err(|e| from_file(operation, path, &e))?;
     tables
         .into_iter()

@@ -6,7 +6,7 @@
 //! contradicts itself is a fault of the partition and is reported, never repaired.
 
 use crate::model::plan::{Cover, PlannedBody};
-use crate::model::rules::Rules;
+use crate::model::rules::{BACKGROUND, Rules};
 
 /// Which volumes' insides hold a place, told from the sides of regions: domain, lids, shells.
 #[derive(Clone, Debug)]
@@ -40,7 +40,9 @@ impl Holders {
                 inside[self.first_shell + shell] && !cover.is_some_and(|region| inside[region])
             })
         };
-        inside[0].then(|| rules.owner(holds))
+        // That is known already, so it is asked first.
+        let holders = (1..self.bodies.len()).filter(|volume| holds(*volume));
+        inside[0].then(|| rules.owner_since(BACKGROUND, holders, |_| true))
     }
 }
 

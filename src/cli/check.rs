@@ -1,5 +1,6 @@
 //! `clinothem check`: every defect, and who removes what.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::args::ModelArgs;
@@ -64,15 +65,19 @@ fn remarks(loaded: &Loaded) -> Result<Vec<String>, Failure> {
 /// What each feature does to each older one, and to other instances of itself.
 fn resolve(volumes: &[VolumeRules], rules: &Rules) -> Vec<Line> {
     let mut features: Vec<&str> = Vec::new();
-    for volume in &volumes[1..] {
-        if !features.contains(&volume.feature.as_str()) {
-            features.push(&volume.feature);
+    let mut of: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (volume, rules) in volumes.iter().enumerate().skip(1) {
+        let own = of.entry(&rules.feature).or_default();
+        if own.is_empty() {
+            features.push(&rules.feature);
         }
+        own.push(volume);
     }
     let resolved = Resolved {
         volumes,
         rules,
         features: &features,
+        of,
     };
     features
         .iter()
@@ -85,13 +90,13 @@ struct Resolved<'a> {
     volumes: &'a [VolumeRules],
     rules: &'a Rules,
     features: &'a [&'a str],
+    /// The volumes of each feature, in order.
+    of: BTreeMap<&'a str, Vec<usize>>,
 }
 
 impl Resolved<'_> {
-    fn of(&self, feature: &str) -> Vec<usize> {
-        (1..self.volumes.len())
-            .filter(|volume| self.volumes[*volume].feature == feature)
-            .collect()
+    fn of(&self, feature: &str) -> &[usize] {
+        self.of.get(feature).map_or(&[], Vec::as_slice)
     }
 
     /// The features from which a volume takes, and those that it leaves, with the reason.
@@ -106,10 +111,9 @@ impl Resolved<'_> {
             let older = if holder == "background" {
                 Some(0)
             } else {
-                self.of(holder)
-                    .into_iter()
-                    .take_while(|volume| *volume < body)
-                    .last()
+                let own = self.of(holder);
+                let older = own.partition_point(|volume| *volume < body);
+                own[..older].last().copied()
             };
             let Some(older) = older else { continue };
             let name = if holder == feature {
@@ -137,7 +141,7 @@ impl Resolved<'_> {
         };
         let (removes, spared) = self.fate_of_older(feature, body);
         let mut facies: Vec<&str> = Vec::new();
-        for volume in &own {
+        for volume in own {
             if !facies.contains(&volumes[*volume].facies.as_str()) {
                 facies.push(&volumes[*volume].facies);
             }

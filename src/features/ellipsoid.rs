@@ -169,6 +169,40 @@ impl Ellipsoid {
         })
     }
 
+    /// Whether it holds a point. On its surface that is a matter of rounding.
+    pub fn contains(&self, point: DVec3) -> bool {
+        self.unit(point).length_squared() < 1.0
+    }
+
+    /// Whether its surface comes within a distance of a point (m), to first order of that.
+    pub fn is_near(&self, point: DVec3, distance: f64) -> bool {
+        let unit = self.unit(point);
+        let length = unit.length();
+        let off = (length - 1.0).abs();
+        let [shortest, longest] = self.axes.iter().fold([f64::INFINITY, 0.0], |range, axis| {
+            [axis.length().min(range[0]), axis.length().max(range[1])]
+        });
+        // One unit of the unit sphere is at least the shortest semi-axis, at most the longest.
+        if off * shortest > distance {
+            return false;
+        }
+        if off * longest <= distance {
+            return true;
+        }
+        // The gradient of the length by the point, of which `off` is the change.
+        let unit = unit / length;
+        let gradient = (0..3).fold(DVec3::ZERO, |sum, i| {
+            sum + self.axes[i] * (unit[i] / self.axes[i].length_squared())
+        });
+        off <= distance * gradient.length()
+    }
+
+    /// A point in the frame in which it is the unit sphere. Its semi-axes are at right angles.
+    fn unit(&self, point: DVec3) -> DVec3 {
+        let from = point - self.center;
+        DVec3::from_array(self.axes.map(|axis| from.dot(axis) / axis.length_squared()))
+    }
+
     /// Its centre.
     pub fn center(&self) -> DVec3 {
         self.center
@@ -209,6 +243,40 @@ mod tests {
     fn grid(n: usize) -> impl Iterator<Item = (f64, f64)> {
         let steps = move || (0..=n).map(move |i| i as f64 / n as f64);
         steps().flat_map(move |u| steps().map(move |v| (u, v)))
+    }
+
+    #[test]
+    fn a_point_is_inside_and_near_as_the_closed_surface_says() {
+        let ellipsoid = TILTED.build().unwrap();
+        let shell = Enclosure::new(vec![ellipsoid.skin().clone()]).unwrap();
+        let (low, high) = ellipsoid.bounds();
+        let mut counts = [0; 4];
+        for k in 0..4000 {
+            let part = |ratio: f64| (f64::from(k) * ratio).fract();
+            let unit = DVec3::new(
+                part(0.819_172_513),
+                part(0.671_043_607),
+                part(0.549_700_478),
+            );
+            let point = low + (high - low) * unit;
+            assert_eq!(ellipsoid.contains(point), shell.contains(point), "{point}");
+            counts[usize::from(ellipsoid.contains(point))] += 1;
+        }
+        // Points at known distances from the surface.
+        for (u, v) in grid(12) {
+            let Some(normal) = ellipsoid.skin().normal(u, v) else {
+                continue;
+            };
+            for off in [-1e-3, 1e-3, -1e-6, 1e-6_f64] {
+                let point = ellipsoid.skin().point(u, v) + off * normal;
+                assert_eq!(ellipsoid.contains(point), off < 0.0);
+                assert!(ellipsoid.is_near(point, 1.01 * off.abs()));
+                assert!(!ellipsoid.is_near(point, 0.99 * off.abs()));
+                counts[2 + usize::from(off > 0.0)] += 1;
+            }
+        }
+        assert!(counts.iter().all(|count| *count > 200), "{counts:?}");
+        assert!(ellipsoid.is_near(TILTED.center, 31.0) && !ellipsoid.is_near(TILTED.center, 4.9));
     }
 
     /// (first, second, third) / semi-axes, with the rotation written out by its angles.

@@ -65,12 +65,23 @@ impl Side {
     pub fn is_at(&self, other: &Self, tolerance: f64) -> bool {
         match (self, other) {
             (Self::Horizon(one), Self::Horizon(other)) => {
-                let knots = |sheet: &Surface| (sheet.knots_u().clone(), sheet.knots_v().clone());
-                let mut pairs = one.sheet.net().iter().zip(other.sheet.net());
-                knots(&one.sheet) == knots(&other.sheet)
+                let mut heights = one.heights.iter().zip(other.heights);
+                let (one, other) = (&one.sheet, &other.sheet);
+                let mut pairs = one.net().iter().zip(other.net());
+                heights.all(|(a, b)| (a - b).abs() <= tolerance)
+                    && one.knots_u() == other.knots_u()
+                    && one.knots_v() == other.knots_v()
                     && pairs.all(|(a, b)| (*a - *b).abs().max_element() <= tolerance)
             }
             _ => self == other,
+        }
+    }
+
+    /// Least and greatest elevation of a horizon within the plan of its sheet, or beyond them (m); none of what is no horizon.
+    pub fn heights(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Horizon(horizon) => Some(horizon.heights),
+            _ => None,
         }
     }
 
@@ -98,6 +109,8 @@ pub struct HorizonSheet {
     sheet: Surface,
     low: DVec2,
     extent: DVec2,
+    /// Least and greatest elevation of the sheet's control points (m): what is above or below all of them needs no evaluation.
+    heights: [f64; 2],
 }
 
 impl HorizonSheet {
@@ -106,7 +119,9 @@ impl HorizonSheet {
         let sheet = horizon.sheet(low, high)?;
         let net = sheet.net();
         let (first, last) = (net[0].xy(), net[net.len() - 1].xy());
+        let (lowest, highest) = points_bounds(net);
         Ok(Self {
+            heights: [lowest.z, highest.z],
             horizon,
             sheet,
             low: first,
@@ -137,6 +152,12 @@ impl HorizonSheet {
 
     /// Whether a point lies above the horizon.
     pub fn holds(&self, point: DVec3) -> bool {
+        let [lowest, highest] = self.heights;
+        let part = (point.xy() - self.low) / self.extent;
+        let inside = part.cmpge(DVec2::ZERO).all() && part.cmple(DVec2::ONE).all();
+        if inside && (point.z <= lowest || point.z > highest) {
+            return point.z > highest;
+        }
         point.z > self.height(point.xy())
     }
 }

@@ -150,10 +150,10 @@ pub(crate) struct ChannelFile {
     #[schemars(schema_with = "schema::trajectory")]
     pub(crate) trajectory: Field<Any>,
     /// A new section is set where the direction has turned by more than this, in degrees; 15 if left out.
-    #[schemars(range(min = 0, max = 90))]
+    #[schemars(range(min = 0.1, max = 90))]
     pub(crate) angle_limit_deg: Option<Field<f64>>,
     /// How far thalweg and rims may lie from where they belong, as a fraction of the width; 0.01 if left out.
-    #[schemars(range(min = 0, max = 0.5))]
+    #[schemars(range(min = 0.00001, max = 0.5))]
     pub(crate) tolerance_fraction: Option<Field<f64>>,
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::features::body::Body;
+use crate::features::ellipsoid::Ellipsoid;
 use crate::features::side::Side;
 use crate::nurbs::SurfaceError;
 use crate::nurbs::enclosure::{Enclosure, EnclosureError};
@@ -14,6 +15,8 @@ use crate::nurbs::enclosure::{Enclosure, EnclosureError};
 pub enum Interior {
     /// Inside a closed shell.
     Shell(Arc<Enclosure>),
+    /// Inside an ellipsoid.
+    Ellipsoid(Arc<Ellipsoid>),
     /// On the younger side of open sheets.
     Side(Arc<Side>),
 }
@@ -32,17 +35,21 @@ pub enum InteriorError {
 impl Interior {
     /// What a body holds.
     pub fn of(body: &Body) -> Result<Self, InteriorError> {
-        if let Body::Side(side) = body {
-            return Ok(Self::Side(Arc::clone(side)));
+        match body {
+            Body::Side(side) => Ok(Self::Side(Arc::clone(side))),
+            Body::Ellipsoid(ellipsoid) => Ok(Self::Ellipsoid(Arc::new(ellipsoid.clone()))),
+            Body::Trough(_) => {
+                let sheets = body.sheets()?.into_iter().map(|sheet| sheet.1).collect();
+                Ok(Self::Shell(Arc::new(Enclosure::new(sheets)?)))
+            }
         }
-        let sheets = body.sheets()?.into_iter().map(|sheet| sheet.1).collect();
-        Ok(Self::Shell(Arc::new(Enclosure::new(sheets)?)))
     }
 
     /// Whether it holds a point.
     pub fn contains(&self, point: DVec3) -> bool {
         match self {
             Self::Shell(shell) => shell.contains(point),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.contains(point),
             Self::Side(side) => side.holds(point),
         }
     }
@@ -52,6 +59,7 @@ impl Interior {
     pub fn is_near(&self, point: DVec3, distance: f64) -> bool {
         match self {
             Self::Shell(shell) => shell.distance(point, distance).is_some(),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.is_near(point, distance),
             Self::Side(side) => {
                 let here = side.holds(point);
                 around(point, distance).any(|beside| side.holds(beside) != here)
@@ -63,6 +71,7 @@ impl Interior {
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
             Self::Shell(shell) => shell.bounds(),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
             Self::Side(side) => Body::Side(Arc::clone(side)).bounds(),
         }
     }

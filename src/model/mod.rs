@@ -6,6 +6,7 @@
 //! A [`Source`] is a text and the overrides given with it; [`Model::check`] turns it into a [`Model`] whose references are
 //! indices and whose numbers are possible, or into [`Defects`]. [`Quantity`] and [`Profile`] are drawn from a [`Stream`].
 
+mod cells;
 mod check;
 mod defects;
 mod deserialize;

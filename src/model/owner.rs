@@ -3,9 +3,12 @@
 //! It uses no CAD kernel, so it is the independent oracle of every assembly, and enough for whatever
 //! needs only sampled answers: sections, previews, logs, Monte Carlo volumes.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::cells::Cells;
 use super::interior::{Interior, InteriorError, around};
 use super::realisation::{Instance, Realisation};
 use super::rules::{Rules, Verdict};
@@ -17,6 +20,8 @@ pub struct Owners {
     extent: Extent,
     rules: Rules,
     interiors: Vec<Interior>,
+    /// Which bodies may hold a place.
+    cells: Arc<Cells>,
 }
 
 /// A body that has no inside.
@@ -53,9 +58,12 @@ impl Owners {
             .instances
             .par_iter()
             .map(interior)
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
+        let extent = realisation.extent.clone();
+        let block = [extent.low(), extent.high()];
         Ok(Self {
-            extent: realisation.extent.clone(),
+            cells: Arc::new(Cells::new(block, &interiors, &realisation.rules)),
+            extent,
             rules: realisation.rules.clone(),
             interiors,
         })
@@ -63,10 +71,13 @@ impl Owners {
 
     /// The volume that holds a point; `None` outside the domain.
     pub fn at(&self, point: DVec3) -> Option<usize> {
-        self.in_domain(point).then(|| {
-            self.rules
-                .owner(|body| self.interiors[body - 1].contains(point))
-        })
+        self.in_domain(point).then(|| self.owner(point))
+    }
+
+    fn owner(&self, point: DVec3) -> usize {
+        let (first, younger) = self.cells.at(point);
+        self.rules
+            .owner_since(first, younger, |body| self.inside(body, point))
     }
 
     /// Whether a volume's body holds a point, by its shell or side alone.
@@ -98,9 +109,7 @@ impl Owners {
         let history = self
             .rules
             .history(|body| self.interiors[body - 1].contains(point));
-        let owner = self
-            .rules
-            .owner(|body| self.interiors[body - 1].contains(point));
+        let owner = self.owner(point);
         if self.near(point, tolerance).next().is_none() {
             return Some(Location {
                 owner,

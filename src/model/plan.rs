@@ -12,6 +12,7 @@
 //!   inside the bodies. The domain's own top serves as lid for bodies that reach it.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -134,19 +135,21 @@ impl AssemblyPlan {
             .filter_map(|instance| plan.reaching(instance))
             .collect();
         let tops = plan.tops(&reaching, realisation.step > 0.0);
-        let mut known: Vec<(Top, usize)> = Vec::new();
+        // By box: bodies that are one have the same, but sides are within a tolerance.
+        let mut known: BTreeMap<Option<[u64; 6]>, Vec<(Top, usize)>> = BTreeMap::new();
         for (reaching, &top) in reaching.iter().zip(&tops) {
             let volume = reaching.volume;
             let same = |(other, shell): &&(Top, usize)| {
                 *other == top && plan.are_one(&plan.shells[*shell].body, &reaching.body)
             };
-            let shell = if let Some(&(_, shell)) = known.iter().find(same) {
+            let alike = known.entry(box_of(&reaching.body)).or_default();
+            let shell = if let Some(&(_, shell)) = alike.iter().find(same) {
                 let name = &plan.names[volume];
                 plan.note(format!("{name} has the shell of an older body"));
                 shell
             } else {
                 let shell = plan.add_shell(reaching, top)?;
-                known.push((top, shell));
+                alike.push((top, shell));
                 shell
             };
             let below = plan.cover(top);
@@ -258,6 +261,13 @@ impl AssemblyPlan {
         let levels: Vec<Option<f64>> = bodies.iter().map(|one| one.body.level_top(same)).collect();
         let bounds: Vec<_> = bodies.iter().map(|one| one.body.bounds()).collect();
         let mut tops = vec![Top::Free; bodies.len()];
+        let level_of = |body: &Body| match body {
+            Body::Side(side) => side.level(),
+            Body::Trough(_) | Body::Ellipsoid(_) => None,
+        };
+        let level_horizons: Vec<Option<f64>> =
+            bodies.iter().map(|one| level_of(&one.body)).collect();
+        let (horizons, of_bodies) = (Sorted::new(&level_horizons), Sorted::new(&levels));
         for (i, level) in levels.iter().enumerate() {
             let Some(level) = *level else { continue };
             if (level - self.high().z).abs() <= same {
@@ -268,14 +278,7 @@ impl AssemblyPlan {
                 ));
                 continue;
             }
-            let horizon = bodies.iter().position(|one| {
-                let Body::Side(side) = &*one.body else {
-                    return false;
-                };
-                side.level()
-                    .is_some_and(|other| (other - level).abs() <= same)
-            });
-            if let Some(body) = horizon {
+            if let Some(body) = horizons.near(level, same).min() {
                 tops[i] = Top::UnderHorizon(body, level);
                 self.note(format!(
                     "{} ends at the horizon of {}",
@@ -283,11 +286,8 @@ impl AssemblyPlan {
                 ));
                 continue;
             }
-            let meets = |j: &usize| {
-                *j != i
-                    && levels[*j].is_some_and(|other| (other - level).abs() <= same)
-                    && boxes_meet_in_plan(&bounds[i], &bounds[*j])
-            };
+            let meets = |j: usize| j != i && boxes_meet_in_plan(&bounds[i], &bounds[j]);
+            let is_shared = of_bodies.near(level, same).any(meets);
             let runs_along = |one: &Reaching<'_>| match &*one.body {
                 Body::Side(side) if matches!(**side, Side::Horizon(_)) => {
                     let (low, high) = side.bounds();
@@ -295,19 +295,14 @@ impl AssemblyPlan {
                 }
                 _ => false,
             };
-            let is_shared = (0..bodies.len()).any(|j| meets(&j));
             if by_age && !is_shared && level < self.high().z && bodies.iter().any(runs_along) {
                 tops[i] = Top::UnderLid(level);
                 continue;
             }
             if level < self.high().z && is_shared {
                 // The first one's level stands for all that are the same.
-                let lid = levels
-                    .iter()
-                    .flatten()
-                    .copied()
-                    .find(|other| (other - level).abs() <= same)
-                    .unwrap_or(level);
+                let first = of_bodies.near(level, same).min();
+                let lid = first.and_then(|first| levels[first]).unwrap_or(level);
                 tops[i] = Top::UnderLid(lid);
                 let name = &self.names[bodies[i].volume];
                 self.note(format!(
@@ -355,6 +350,40 @@ impl AssemblyPlan {
             }
         }
     }
+}
+
+/// Bodies by elevations that they have.
+struct Sorted(Vec<(f64, usize)>);
+
+impl Sorted {
+    fn new(elevations: &[Option<f64>]) -> Self {
+        let known = elevations.iter().enumerate();
+        let mut known: Vec<(f64, usize)> = known.filter_map(|(at, z)| Some(((*z)?, at))).collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self(known)
+    }
+
+    /// The bodies within a distance of an elevation, the lowest first.
+    fn near(&self, elevation: f64, distance: f64) -> impl Iterator<Item = usize> {
+        // A little lower, for what rounding leaves out.
+        let from = elevation - 2.0 * distance;
+        let first = self.0.partition_point(|one| one.0 < from);
+        self.0[first..]
+            .iter()
+            .take_while(move |one| one.0 <= elevation + 2.0 * distance)
+            .filter(move |one| (one.0 - elevation).abs() <= distance)
+            .map(|one| one.1)
+    }
+}
+
+/// The box of a closed body, bit by bit.
+fn box_of(body: &Body) -> Option<[u64; 6]> {
+    if matches!(body, Body::Side(_)) {
+        return None;
+    }
+    let (low, high) = body.bounds();
+    let [a, b] = [low, high].map(|corner| corner.to_array().map(f64::to_bits));
+    Some([a[0], a[1], a[2], b[0], b[1], b[2]])
 }
 
 fn boxes_meet_in_plan(a: &(DVec3, DVec3), b: &(DVec3, DVec3)) -> bool {

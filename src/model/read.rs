@@ -80,6 +80,9 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for FieldVisitor<T> {
     }
 }
 
+/// Unknown keys of a table among which a missing one is looked for: each is compared with all that are known.
+const MOST_MISSPELT: usize = 100;
+
 /// Reads the tables of a tree and gathers what is wrong.
 pub(crate) struct Reader<'t> {
     pub(crate) tree: &'t Tree,
@@ -216,10 +219,12 @@ impl<'t> Reader<'t> {
     /// Reports that a key is missing, unless it is there but misspelt (which closing the table reports).
     pub(crate) fn missing(&self, table: NodeId, name: &str, key: &str, example: &str) {
         let known = self.known(table);
-        let misspelt = self.tree.entries(table).iter().any(|entry| {
-            let word = entry.key.as_str();
-            !known.contains(&word) && suggest::nearest(word, &known) == Some(key)
-        });
+        let unknown = self.tree.entries(table).iter();
+        let mut unknown = unknown
+            .map(|entry| entry.key.as_str())
+            .filter(|word| !known.contains(word))
+            .take(MOST_MISSPELT);
+        let misspelt = unknown.any(|word| suggest::nearest(word, &known) == Some(key));
         if !misspelt {
             self.wrong(
                 table,

@@ -3,7 +3,7 @@
 //! Both are sampled: points inside each body, and beside the sheets of what divides. Few are needed, since only those of
 //! which not one point is where it should be are spoken of.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -43,20 +43,23 @@ pub struct Remark {
 
 /// Features whose instances lie outside of the parents that they are drawn for.
 pub fn outside_parents(realisation: &Realisation) -> Vec<Remark> {
-    let mut features: Vec<(usize, Vec<&Instance>)> = Vec::new();
+    // By feature, in the order of their first instances.
+    let mut features: Vec<Vec<&Instance>> = Vec::new();
+    let mut places: BTreeMap<usize, usize> = BTreeMap::new();
     for instance in &realisation.instances {
         let is_child = realisation.volumes[instance.volume].parent.is_some();
         if !is_child || matches!(instance.body, Body::Side(_)) {
             continue;
         }
-        match features.iter_mut().find(|one| one.0 == instance.feature) {
-            Some((_, instances)) => instances.push(instance),
-            None => features.push((instance.feature, vec![instance])),
+        let place = *places.entry(instance.feature).or_insert(features.len());
+        if place == features.len() {
+            features.push(Vec::new());
         }
+        features[place].push(instance);
     }
     features
         .iter()
-        .filter_map(|(_, instances)| misses(realisation, instances))
+        .filter_map(|instances| misses(realisation, instances))
         .collect()
 }
 
@@ -181,35 +184,35 @@ pub fn say_empty(
     };
     let volumes = &realisation.volumes;
     let is_set = |volume: &VolumeRules| volume.kind == "clinoforms";
-    let divided = |one: usize| {
-        !is_set(&volumes[one])
-            && volumes
-                .iter()
-                .any(|part| is_set(part) && part.from == Some(one))
-    };
-    let is_told = |one: &usize| told.iter().any(|remark| remark.volumes.contains(one));
-    let empty: Vec<usize> = empty
-        .iter()
-        .copied()
-        .filter(|one| !divided(*one) && !is_told(one))
+    let parts = volumes.iter().filter(|part| is_set(part));
+    let divided: BTreeSet<usize> = parts
+        .filter_map(|part| part.from)
+        .filter(|from| !is_set(&volumes[*from]))
         .collect();
-    let mut features: Vec<&str> = Vec::new();
-    for volume in &empty {
-        let feature = realisation.volumes[*volume].feature.as_str();
-        if !features.contains(&feature) {
-            features.push(feature);
-        }
+    let is_told: BTreeSet<usize> = told
+        .iter()
+        .flat_map(|remark| remark.volumes.iter().copied())
+        .collect();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for volume in volumes {
+        *counts.entry(&volume.feature).or_default() += 1;
     }
-    let of = |feature: &str, volume: usize| realisation.volumes[volume].feature == feature;
-    let say = |feature: &str| {
-        let ours: Vec<usize> = empty
-            .iter()
-            .copied()
-            .filter(|volume| of(feature, *volume))
-            .collect();
-        let all = (0..realisation.volumes.len())
-            .filter(|volume| of(feature, *volume))
-            .count();
+    // By feature, in the order of their first volumes.
+    let mut features: Vec<(&str, Vec<usize>)> = Vec::new();
+    let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+    for volume in empty {
+        if divided.contains(volume) || is_told.contains(volume) {
+            continue;
+        }
+        let feature = volumes[*volume].feature.as_str();
+        let place = *places.entry(feature).or_insert(features.len());
+        if place == features.len() {
+            features.push((feature, Vec::new()));
+        }
+        features[place].1.push(*volume);
+    }
+    let say = |(feature, ours): (&str, Vec<usize>)| {
+        let all = counts[feature];
         let list = names(realisation, &ours);
         if all == 1 {
             format!("{list} {one_holds} nothing: it lies outside, or others hold all of it")

@@ -56,8 +56,6 @@ pub struct VolumeRules {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rules {
     volumes: Vec<Resolved>,
-    /// By volume: the younger ones that take from it a place that it holds.
-    takers: Vec<Vec<Run>>,
     /// By volume: the younger ones that lie above it, or above what lies above it.
     upon: Vec<Vec<usize>>,
 }
@@ -161,18 +159,30 @@ impl VolumeRules {
 impl Rules {
     /// Resolves the rules of all volumes, background first, parents before their children.
     pub fn new(volumes: &[VolumeRules]) -> Self {
-        let resolve = |volume: &VolumeRules| Resolved {
-            parent: volume.parent,
-            from: volume.from,
-            above: volume.above,
-            preserve: volume.preserve,
-            removes: Chosen::resolve(&volume.removes, volumes),
-            removed_by: Chosen::resolve(&volume.removed_by, volumes),
-            past: meeting::Past::default(),
+        // Instances of a feature have the same selectors: each is resolved once.
+        let mut known: Vec<(&Selector, Chosen)> = Vec::new();
+        let mut chosen = |selector| {
+            if let Some((_, chosen)) = known.iter().find(|one| one.0 == selector) {
+                return chosen.clone();
+            }
+            let chosen = Chosen::resolve(selector, volumes);
+            known.push((selector, chosen.clone()));
+            chosen
         };
+        let mut resolved = Vec::with_capacity(volumes.len());
+        for volume in volumes {
+            resolved.push(Resolved {
+                parent: volume.parent,
+                from: volume.from,
+                above: volume.above,
+                preserve: volume.preserve,
+                removes: chosen(&volume.removes),
+                removed_by: chosen(&volume.removed_by),
+                past: meeting::Past::default(),
+            });
+        }
         let mut rules = Self {
-            volumes: volumes.iter().map(resolve).collect(),
-            takers: Vec::new(),
+            volumes: resolved,
             upon: vec![Vec::new(); volumes.len()],
         };
         for volume in 0..volumes.len() {
@@ -182,11 +192,6 @@ impl Rules {
                 at = rules.volumes[below].above;
             }
         }
-        let takers = |holder: usize| {
-            let younger = holder + 1..rules.len();
-            runs(younger.filter(|body| rules.verdict(*body, holder) == Verdict::Takes))
-        };
-        rules.takers = (0..rules.len()).map(takers).collect();
         rules.look_back();
         rules
     }
@@ -224,18 +229,33 @@ impl Rules {
 
     /// The volume that holds a place in the end; `inside(volume)` tells whether the place is inside that body's shell.
     /// It is asked only of bodies that would take the place, and of what they lie above.
-    pub fn owner(&self, mut inside: impl FnMut(usize) -> bool) -> usize {
-        let mut holder = BACKGROUND;
-        let mut next = |holder: usize| {
-            let takers = self.takers[holder].iter();
-            takers
-                .flat_map(|(first, last)| *first..=*last)
-                .find(|body| self.holds(*body, &mut inside))
+    pub fn owner(&self, inside: impl FnMut(usize) -> bool) -> usize {
+        self.owner_since(BACKGROUND, 1..self.len(), inside)
+    }
+
+    /// The same of a place that is known to be held by some volume first, where only these younger ones, oldest first, may hold it
+    /// after that.
+    pub fn owner_since(
+        &self,
+        first: usize,
+        younger: impl IntoIterator<Item = usize>,
+        mut inside: impl FnMut(usize) -> bool,
+    ) -> usize {
+        let takes = |holder, body| {
+            let takes = self.verdict(body, holder) == Verdict::Takes;
+            if takes && self.holds(body, &mut inside) {
+                body
+            } else {
+                holder
+            }
         };
-        while let Some(taker) = next(holder) {
-            holder = taker;
-        }
-        holder
+        younger.into_iter().fold(first, takes)
+    }
+
+    /// Whether a body takes every place inside it, whatever holds that.
+    pub fn takes_everything(&self, body: usize) -> bool {
+        let volume = &self.volumes[body];
+        volume.from.is_none() && volume.above.is_none() && volume.past.covers_since.is_some()
     }
 
     /// Every body that has a say about a place, and what it does to the holder so far.

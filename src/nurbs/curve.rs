@@ -139,6 +139,16 @@ impl Curve {
         }
     }
 
+    /// The same curve elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: DVec3) -> Self {
+        let mut curve = self.clone();
+        for point in &mut curve.points {
+            *point += by;
+        }
+        curve
+    }
+
     /// The knot vector.
     pub fn knots(&self) -> &KnotVector {
         &self.knots

@@ -159,6 +159,16 @@ impl Surface {
         to_homogeneous(&self.net, &self.weights)
     }
 
+    /// The same surface elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: DVec3) -> Self {
+        let mut surface = self.clone();
+        for point in &mut surface.net {
+            *point += by;
+        }
+        surface
+    }
+
     /// The knot vector in u.
     pub fn knots_u(&self) -> &KnotVector {
         &self.u

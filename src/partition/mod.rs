@@ -39,6 +39,7 @@ mod pair;
 mod patch;
 mod patches;
 mod pierce;
+mod place;
 mod polygon;
 mod quadrature;
 mod region;
@@ -195,6 +196,21 @@ const MARGIN: f64 = 5e-4;
 ///
 /// `labels` names the volume of a place, given for each region whether it holds the place.
 pub fn partition(
+    regions: Vec<Region>,
+    labels: &(dyn Fn(&[bool]) -> Label + Sync),
+    options: &Options<'_>,
+) -> Result<Partition, PartitionError> {
+    let Some(way) = place::way(&regions) else {
+        return here(regions, labels, options);
+    };
+    let moved = regions.into_iter().map(|one| place::moved(one, way));
+    let mut made = here(moved.collect(), labels, options)?;
+    place::restore(&mut made.topology, &mut made.doubts, -way);
+    Ok(made)
+}
+
+/// The same where the domain lies.
+fn here(
     regions: Vec<Region>,
     labels: &(dyn Fn(&[bool]) -> Label + Sync),
     options: &Options<'_>,

@@ -55,6 +55,12 @@ pub trait Membership: Send + Sync + std::fmt::Debug {
     fn holds(&self, point: DVec3) -> bool;
 }
 
+impl Membership for Enclosure {
+    fn holds(&self, point: DVec3) -> bool {
+        self.contains(point)
+    }
+}
+
 /// A region's membership.
 #[derive(Debug)]
 pub(super) enum Inside {

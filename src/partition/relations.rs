@@ -35,6 +35,8 @@ pub(super) struct Relations {
     meets: Vec<Few>,
     /// Which regions make no difference outside of one, and which inside.
     hides: Vec<[Few; 2]>,
+    /// Whether there are any.
+    hides_any: Vec<[bool; 2]>,
     /// Regions, those that hide most others first.
     by_hiding: Vec<usize>,
 }
@@ -63,11 +65,15 @@ impl Relations {
             .map(|region| [hidden(region, false), hidden(region, true)])
             .collect();
         let mut by_hiding: Vec<usize> = (0..count).collect();
-        let most = |region: &usize| hides[*region].iter().map(Few::count).max();
-        by_hiding.sort_by_key(|region| std::cmp::Reverse(most(region)));
+        let counts = |region: usize| hides[region].each_ref().map(Few::count);
+        by_hiding.sort_by_cached_key(|region| std::cmp::Reverse(counts(*region).into_iter().max()));
+        let hides_any = (0..count)
+            .map(|region| counts(region).map(|count| count > 0))
+            .collect();
         Self {
             meets,
             hides,
+            hides_any,
             by_hiding,
         }
     }
@@ -100,7 +106,11 @@ impl Relations {
                 continue;
             }
             sides[region] = inside(region);
-            hidden.add_all(&self.hides[region][usize::from(sides[region])]);
+            let side = usize::from(sides[region]);
+            if !self.hides_any[region][side] {
+                continue;
+            }
+            hidden.add_all(&self.hides[region][side]);
             if own.iter().any(|own| hidden.has(*own)) {
                 return None;
             }

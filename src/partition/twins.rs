@@ -22,8 +22,24 @@ const MARGIN: f64 = 2.0;
 /// Pairs of sheets, the smaller number first, that do not meet at or near equal parameters in a box.
 pub(super) fn apart(sheets: &[Sheet], clip: &Bounds) -> BTreeSet<[usize; 2]> {
     let mut twins = BTreeSet::new();
+    let first = |sheet: &Sheet| sheet.surface.net()[0];
+    // Twins have their first control points beside each other: by the axis along which these are spread most.
+    let all = Bounds::of(sheets.iter().map(first));
+    let spread = (all.high - all.low).to_array();
+    let axis = (0..3)
+        .max_by(|a, b| spread[*a].total_cmp(&spread[*b]))
+        .unwrap_or(0);
+    let mut sorted: Vec<(f64, usize)> =
+        sheets.iter().map(|one| first(one)[axis]).zip(0..).collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (i, a) in sheets.iter().enumerate() {
-        for (j, b) in sheets.iter().enumerate().skip(i + 1) {
+        let (at, near) = (first(a)[axis], NEAR * a.bounds().extent());
+        let from = sorted.partition_point(|one| one.0 < at - near);
+        let beside = sorted[from..].iter().take_while(|one| one.0 <= at + near);
+        for (j, b) in beside
+            .map(|(_, j)| (*j, &sheets[*j]))
+            .filter(|one| one.0 > i)
+        {
             if a.region != b.region && are_alike(a, b) && are_apart(a, b, clip) {
                 twins.insert([i, j]);
             }

@@ -16,7 +16,7 @@ import FreeCAD
 MM = 1000.0
 # FreeCAD integrates volumes with a fixed number of points: up to 8e-4 off for a solid of ours, 6e-5 for their sum.
 ROUGH, ROUGH_SUM = 1e-3, 1e-4
-# For models with ellipsoids, whose rational surfaces these points fit worse, and with a curved base or top: there the kernel's
+# For models with ellipsoids, whose rational surfaces these points fit worse, with horizons, and with a curved base or top: there the kernel's
 # integrals to a given error agree with the report to 1e-8.
 ROUGH_ROUND, ROUGH_SUM_ROUND = 3e-3, 3e-4
 
@@ -82,7 +82,7 @@ def is_block(domain):
 
 def check_shapes(report, volumes, by_volume, found):
     domain = report["domain"]
-    curved = any(v["kind"] == "ellipsoid" for v in volumes.values()) or not is_block(domain)
+    curved = any(v["kind"] in ("ellipsoid", "horizon") for v in volumes.values()) or not is_block(domain)
     rough = ROUGH_ROUND if curved else ROUGH
     total, count, worst = 0.0, 0, 0.0
     corners = []

@@ -13,6 +13,7 @@ mod assembled;
 mod bodies;
 mod entities;
 mod failures;
+mod far;
 mod flavours;
 mod models;
 mod seams;
@@ -23,8 +24,8 @@ use std::path::{Path, PathBuf};
 use clinothem::export::ExportError;
 use clinothem::export::step::{Content, Document, Exchange, Node, Protocol, assembly, shared};
 use occt_bridge::{
-    Cancel, PartitionOptions, ReadPart, Shape, Solids, Threads, boundary, box_solid, defects,
-    partition, read_step,
+    Cancel, LengthUnit, PartitionOptions, ReadPart, Shape, Solids, Threads, boundary, box_solid,
+    defects, partition, read_step, read_step_in,
 };
 
 /// A part with a layer and a description.
@@ -54,6 +55,7 @@ fn document(nodes: Vec<Node>) -> Document {
         system: "clinothem 0.1.0".to_owned(),
         description: "a test".to_owned(),
         protocol: Protocol::Ap214,
+        accuracy: 1e-7,
         root: group("model", nodes),
     }
 }
@@ -133,6 +135,10 @@ impl Written {
 
     fn read(&self) -> Vec<ReadPart> {
         read_step(&self.path()).unwrap()
+    }
+
+    fn read_in(&self, unit: LengthUnit) -> Vec<ReadPart> {
+        read_step_in(&self.path(), unit).unwrap()
     }
 }
 

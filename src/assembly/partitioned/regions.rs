@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::Trouble;
 use crate::assembly::shapes;
 use crate::features::body::{Body, Role, Trough, TroughError};
+use crate::features::ellipsoid::Ellipsoid;
 use crate::features::side::Side;
 use crate::model::Interior;
 use crate::model::owner::Owners;
@@ -41,6 +42,12 @@ pub(super) fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region
 impl Membership for Side {
     fn holds(&self, point: DVec3) -> bool {
         Self::holds(self, point)
+    }
+}
+
+impl Membership for Ellipsoid {
+    fn holds(&self, point: DVec3) -> bool {
+        self.contains(point)
     }
 }
 
@@ -84,6 +91,10 @@ fn region(
         Some(Interior::Shell(shell)) => Region::PartOf {
             surfaces,
             shell: Arc::clone(shell),
+        },
+        Some(Interior::Ellipsoid(ellipsoid)) => Region::Side {
+            surfaces,
+            inside: Arc::clone(ellipsoid) as Arc<dyn Membership>,
         },
         _ => Region::Shell(surfaces),
     })

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::scene::Scene;
 use super::spline::Spline;
-use super::{Check, Prover, TOLERANCE};
+use super::{Check, Prover};
 use crate::nurbs::Surface;
 use crate::partition::{Edge, Topology};
 

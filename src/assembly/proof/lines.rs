@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::scene::{Broken, Scene, Stretch, stretches};
 use super::tree::Tree;
-use super::{Check, ProofError, Prover, TOLERANCE};
+use super::{Check, ProofError, Prover};
 use crate::model::Stream;
 use crate::nurbs::pierce::{Line, Target};
 use crate::nurbs::{Surface, SurfaceError};
@@ -373,7 +373,7 @@ impl Prover<'_> {
         } else {
             (face as f64 * 0.618_033_988_749_895).fract()
         };
-        let reach = (10.0 * TOLERANCE).max(8.0 * self.hidden()) * 100_f64.powf(spread);
+        let reach = (10.0 * self.tolerance()).max(8.0 * self.hidden()) * 100_f64.powf(spread);
         for stretch in stretches {
             let [from, to] = stretch.range;
             for (side, end) in [(1.0, from), (-1.0, to)] {

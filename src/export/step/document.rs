@@ -19,6 +19,8 @@ pub struct Document {
     pub description: String,
     /// Application protocol.
     pub protocol: Protocol,
+    /// How far apart points may be that are one (m).
+    pub accuracy: f64,
     /// The root of the tree.
     pub root: Node,
 }
@@ -54,7 +56,7 @@ pub enum Content {
 pub fn assembly(document: &Document, boundary: &Boundary) -> Result<Exchange, ExportError> {
     check(&document.root, boundary)?;
     let mut file = begin(document);
-    let mut products = Products::new(&mut file, document.protocol);
+    let mut products = Products::new(&mut file, document);
     products.tree(&document.root, &mut Geometry::new(boundary));
     products.finish();
     Ok(file.finish())
@@ -106,7 +108,7 @@ pub fn shared(
             Quoted(name)
         )));
     }
-    let mut products = Products::new(&mut file, document.protocol);
+    let mut products = Products::new(&mut file, document);
     products.single(
         &document.root.name,
         "NON_MANIFOLD_SURFACE_SHAPE_REPRESENTATION",

@@ -15,6 +15,7 @@
 //! into.
 
 mod document;
+mod far;
 mod geometry;
 mod part21;
 mod presentation;
@@ -30,6 +31,7 @@ use super::ExportError;
 use super::report::solid_names;
 use super::text::ascii;
 use crate::assembly::kernel::{self, BridgeError};
+use crate::assembly::shapes::EXACT;
 use crate::assembly::{self, Assembly};
 use crate::model::realisation::Realisation;
 use crate::model::{Facies, Model, Property};
@@ -78,11 +80,12 @@ pub fn write_assembly(
         },
     };
     let solids = (0..assembly.solids.solids().len()).map(|solid| assembly.solids.shape_of(solid));
-    let document = document(model, protocol, tree.root());
-    let boundary = solids
+    let mut document = document(model, protocol, tree.root());
+    let mut boundary = solids
         .collect::<Result<Vec<_>, _>>()
         .and_then(|solids| kernel::boundary(&solids))
         .map_err(|error| kernel_error(&error))?;
+    document.accuracy = far::settle(&mut boundary, assembly.measured.tolerance);
     save(&self::assembly(&document, &boundary)?, path)
 }
 
@@ -100,11 +103,12 @@ pub fn write_shared(
             solid_names(&realisation.volumes[volume].name, pieces)
         })
         .collect();
-    let boundary = assembly
+    let mut boundary = assembly
         .ordered_solids()
         .and_then(|solids| kernel::boundary(&solids))
         .map_err(|error| kernel_error(&error))?;
-    let document = document(model, protocol, group(ascii(&model.name), Vec::new()));
+    let mut document = document(model, protocol, group(ascii(&model.name), Vec::new()));
+    document.accuracy = far::settle(&mut boundary, assembly.measured.tolerance);
     save(&shared(&document, &names, &boundary)?, path)
 }
 
@@ -149,8 +153,9 @@ pub fn write_surfaces(
             "no body of the model has a surface of its own".to_owned(),
         ));
     }
-    let document = document(model, protocol, group(ascii(&model.name), nodes));
-    let boundary = kernel::boundary(&faces).map_err(|error| kernel_error(&error))?;
+    let mut document = document(model, protocol, group(ascii(&model.name), nodes));
+    let mut boundary = kernel::boundary(&faces).map_err(|error| kernel_error(&error))?;
+    document.accuracy = far::settle(&mut boundary, EXACT);
     save(&self::assembly(&document, &boundary)?, path)
 }
 
@@ -161,6 +166,7 @@ fn document(model: &Model, protocol: Protocol, root: Node) -> Document {
         system: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).to_owned(),
         description: format!("seed {}; local origin {x} {y} {z} m", model.seed),
         protocol,
+        accuracy: EXACT,
         root,
     }
 }

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use super::Protocol;
-use super::document::{Content, Node};
+use super::document::{Content, Document, Node};
 use super::geometry::Geometry;
 use super::part21::{Draft, Id, List, Quoted};
 use super::presentation::Presentation;
@@ -72,8 +72,8 @@ struct Common {
 }
 
 impl Common {
-    fn write(to: &mut Draft<'_>, protocol: Protocol) -> Self {
-        let application = application(to, protocol);
+    fn write(to: &mut Draft<'_>, document: &Document) -> Self {
+        let application = application(to, document.protocol);
         let metre = to.add(format_args!(
             "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT($,.METRE.))"
         ));
@@ -91,7 +91,8 @@ impl Common {
                 "PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
             )),
             uncertainty: to.add(format_args!(
-                "UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),{metre},'distance_accuracy_value','confusion accuracy')"
+                "UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({}),{metre},'distance_accuracy_value','confusion accuracy')",
+                one_digit(document.accuracy)
             )),
             units: [
                 metre,
@@ -117,6 +118,20 @@ impl Common {
             List(&self.units)
         ))
     }
+}
+
+/// A number of one digit that is not smaller: `1.E-07`.
+fn one_digit(value: f64) -> String {
+    let exponent = value.log10().floor();
+    // What is one digit already stays, whatever its logarithm is rounded to.
+    let digit = (value / 10_f64.powf(exponent) - 1e-9).ceil();
+    let (digit, exponent) = if digit < 10.0 {
+        (digit, exponent)
+    } else {
+        (1.0, exponent + 1.0)
+    };
+    let sign = if exponent < 0.0 { '-' } else { '+' };
+    format!("{digit}.E{sign}{:02}", exponent.abs())
 }
 
 /// The context of the application protocol.
@@ -155,8 +170,8 @@ pub(super) struct Products<'a, 'd> {
 }
 
 impl<'a, 'd> Products<'a, 'd> {
-    pub(super) fn new(to: &'d mut Draft<'a>, protocol: Protocol) -> Self {
-        let common = Common::write(to, protocol);
+    pub(super) fn new(to: &'d mut Draft<'a>, document: &Document) -> Self {
+        let common = Common::write(to, document);
         Self {
             to,
             common,

@@ -11,6 +11,9 @@ use crate::model::tree::{NodeId, quoted};
 
 const DEFAULT_ANGLE_LIMIT_DEG: f64 = 15.0;
 const DEFAULT_TOLERANCE_FRACTION: f64 = 0.01;
+/// Below these sections are so dense that nothing is gained, and surfaces take gigabytes.
+const LEAST_ANGLE_LIMIT_DEG: f64 = 0.1;
+const LEAST_TOLERANCE_FRACTION: f64 = 1e-5;
 
 impl Checker<'_> {
     pub(super) fn channel(
@@ -54,13 +57,13 @@ impl Checker<'_> {
         let angle = self.number_in(
             file.angle_limit_deg,
             DEFAULT_ANGLE_LIMIT_DEG,
-            90.0,
+            [LEAST_ANGLE_LIMIT_DEG, 90.0],
             "angle limit",
         );
         let tolerance = self.number_in(
             file.tolerance_fraction,
             DEFAULT_TOLERANCE_FRACTION,
-            0.5,
+            [LEAST_TOLERANCE_FRACTION, 0.5],
             "tolerance",
         );
         let plain = |found: Option<(NodeId, Profile)>| found.map(|(_, profile)| profile);
@@ -114,19 +117,19 @@ impl Checker<'_> {
         &self,
         field: Option<Field<f64>>,
         default: f64,
-        largest: f64,
+        [least, largest]: [f64; 2],
         what: &str,
     ) -> Option<f64> {
         let Some(field) = field else {
             return Some(default);
         };
         let (node, value) = field.good()?;
-        if value > 0.0 && value <= largest {
+        if value >= least && value <= largest {
             return Some(value);
         }
         self.reader.wrong(
             node,
-            format!("the {what} is {value}; it must be above 0 and at most {largest}"),
+            format!("the {what} is {value}; it must lie between {least} and {largest}"),
             format!("leave it out for the usual {default}"),
         );
         None

@@ -32,7 +32,7 @@ pub(super) struct Past {
     /// Whether it takes from the gate alone, not from what descends from it.
     directly: bool,
     /// The volumes from this one on make no difference to it: it takes from all that can hold a place then.
-    covers_since: Option<usize>,
+    pub(super) covers_since: Option<usize>,
 }
 
 impl Rules {
