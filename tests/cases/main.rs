@@ -8,6 +8,7 @@
 )]
 
 mod contacts;
+mod newcomer;
 mod real_data;
 mod section;
 mod spline;
