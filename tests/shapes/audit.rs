@@ -181,8 +181,9 @@ fn samples_agree_with_the_rule(topology: &Topology, regions: &[Region], rule: Ru
         for sample in &face.samples {
             let around =
                 |beside: f64| [-beside, beside].map(|d| label(sample.point + d * sample.normal));
-            // What is thinner than the distance is looked at from nearer.
-            if around(1e-2 * beside) != face.labels {
+            // What is thinner than the distance is looked at from nearer: beside a place where landings cross it is thin.
+            let is_seen = |nearer: f64| around(nearer * beside) == face.labels;
+            if !is_seen(1e-2) && !is_seen(1e-4) {
                 assert_eq!(around(beside), face.labels, "face {at} at {}", sample.point);
             }
         }
