@@ -408,6 +408,31 @@ fn a_shoreline_starts_at_the_most_up_dip_corner_and_has_left_when_no_corner_is_b
 }
 
 #[test]
+fn a_nudged_set_lies_farther_basinwards_at_every_strike() {
+    let step = 1e-3;
+    for azimuth in AZIMUTHS {
+        let azimuth: f64 = azimuth + 3.0;
+        let [given, nudged] = [0.0, step]
+            .map(|by| ClinoformFrame::nudged(LOW, HIGH, azimuth.to_radians(), by).unwrap());
+        let shoreline = |frame: &ClinoformFrame, q: f64| {
+            let origin = frame.first_origin(SHORELINE);
+            frame.place(SHORELINE.at(origin, q), q)
+        };
+        for k in -20..=20 {
+            let q = 0.9 * given.reach() * f64::from(k) / 20.0;
+            // How far the nudged shoreline is from a place on the given one, at that place's strike.
+            let place = shoreline(&given, q);
+            let local = nudged.local(place);
+            let ahead = SHORELINE.at(nudged.first_origin(SHORELINE), local.y) - local.x;
+            assert!(
+                (0.4..1.7).contains(&(ahead / step)),
+                "{azimuth}°, {q}: {ahead}"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_wide_ellipse_needs_more_spans_and_too_narrow_a_one_is_refused() {
     let frame = frame(90.0);
     let mut design = design(&frame, 2.0, 0.0);
