@@ -282,6 +282,47 @@ fn sets_stacked_on_each_other_with_their_toes_at_one_place_are_each_half_as_high
 }
 
 #[test]
+fn sets_stacked_on_each_other_with_the_same_belts_are_each_half_as_high() {
+    let belts = "belts = [\n  { name = \"near\", facies = \"sand\", width = 60 },\n  { name = \"far\", facies = \"sand\" },\n]\n";
+    let text = twice(100.0, 400.0, belts);
+    let stacked = text.replace(
+        "[[feature]]\nid = \"b\"",
+        "[[feature]]\nid = \"h\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = -10 }\n\
+         [[feature]]\nid = \"b\"\nparent = \"h\"",
+    );
+    let made = built(from_text(&stacked));
+    let alone = built(from_text(text.rsplit_once("[[feature]]").unwrap().0));
+    for k in 1..=4 {
+        for belt in ["near", "far"] {
+            let half = alone.size(&format!("a-{k}/{belt}")) / 2.0;
+            assert!(half > 1e4);
+            for name in [format!("a-{k}/{belt}"), format!("h/b-{k}/{belt}")] {
+                let size = made.size(&name);
+                // By age they are moved by a tenth of a millimetre at the most, on faces of 700 m × 10 m.
+                assert!((size - half).abs() < 1.0, "{name} is {size}, not {half}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_longer_set_with_the_same_shorelines_adds_nothing_to_the_one_that_is_there() {
+    let text = twice(100.0, 500.0, "");
+    let alone = built(from_text(text.rsplit_once("[[feature]]").unwrap().0));
+    let both = built(from_text(&text));
+    for name in ["background", "a-1", "a-2", "a-3", "a-4"] {
+        let (size, wanted) = (both.size(name), alone.size(name));
+        assert!(
+            (size - wanted).abs() < 1.0,
+            "{name} is {size}, not {wanted}"
+        );
+    }
+    for k in 1..=4 {
+        assert!(both.size(&format!("b-{k}")) < 1.0);
+    }
+}
+
+#[test]
 fn sets_whose_toes_touch_at_one_point_are_told_apart_by_age() {
     // 50 m farther landward, and 50 m longer: the toes are the same where the ellipses have their apex, and nowhere else.
     let made = built(from_text(&twice(50.0, 450.0, "")));
