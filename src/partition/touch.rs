@@ -253,8 +253,9 @@ fn rest(
     }
     // Bernstein polynomials of degree p over the square are those of degree p − 2, but for a factor.
     let divided = |k: usize, j: usize| {
+        let own = at(k, j);
         let (p, k) = (degree as f64, k as f64);
-        at(k as usize, j) * p * (p - 1.0) / (k * (k - 1.0))
+        own * p * (p - 1.0) / (k * (k - 1.0))
     };
     let mut rows: Vec<Vec<f64>> = (2..=degree)
         .map(|k| (0..along).map(|j| divided(k, j)).collect())
