@@ -32,11 +32,7 @@ fn of_file(name: &str, seed: u64) -> Model {
     model
 }
 
-fn drawn(made: &Built, parameter: &str) -> f64 {
-    drawn_of(&made.realisation, parameter)
-}
-
-fn drawn_of(realisation: &Realisation, parameter: &str) -> f64 {
+fn drawn(realisation: &Realisation, parameter: &str) -> f64 {
     let all = realisation.instances.iter().flat_map(|one| &one.drawn);
     let mut found = all.filter(|(name, _)| name == parameter);
     found
@@ -129,10 +125,10 @@ fn sheets_of(realisation: &Realisation, azimuth: f64, [low, high]: [DVec3; 2]) -
     let mut origin = up_dip - TD;
     let sheets = (1..=4).map(|k| {
         origin += match k {
-            1 => drawn_of(realisation, "first"),
-            _ => drawn_of(realisation, &format!("spacing-{k}")),
+            1 => drawn(realisation, "first"),
+            _ => drawn(realisation, &format!("spacing-{k}")),
         };
-        let length = drawn_of(realisation, &format!("length-{k}"));
+        let length = drawn(realisation, &format!("length-{k}"));
         Sheet { origin, length }
     });
     sheets.collect()
