@@ -32,8 +32,8 @@ fn of_file(name: &str, seed: u64) -> Model {
     model
 }
 
-fn drawn(made: &Built, parameter: &str) -> f64 {
-    let all = made.realisation.instances.iter().flat_map(|one| &one.drawn);
+fn drawn(realisation: &Realisation, parameter: &str) -> f64 {
+    let all = realisation.instances.iter().flat_map(|one| &one.drawn);
     let mut found = all.filter(|(name, _)| name == parameter);
     found
         .next()
@@ -114,19 +114,24 @@ fn by_formula(sheets: &[Sheet], azimuth: f64, low: DVec3, high: DVec3) -> Vec<f6
 fn sheets(made: &Built, azimuth: f64) -> (Vec<Sheet>, DVec3, DVec3) {
     let extent = made.owners.extent();
     let (low, high) = (extent.low(), extent.high());
+    let sheets = sheets_of(&made.realisation, azimuth, [low, high]);
+    (sheets, low, high)
+}
+
+fn sheets_of(realisation: &Realisation, azimuth: f64, [low, high]: [DVec3; 2]) -> Vec<Sheet> {
     let dip = DVec2::new(azimuth.to_radians().sin(), azimuth.to_radians().cos());
     let half = (high - low).truncate() / 2.0;
     let up_dip = -(half.x * dip.x.abs() + half.y * dip.y.abs());
     let mut origin = up_dip - TD;
     let sheets = (1..=4).map(|k| {
         origin += match k {
-            1 => drawn(made, "first"),
-            _ => drawn(made, &format!("spacing-{k}")),
+            1 => drawn(realisation, "first"),
+            _ => drawn(realisation, &format!("spacing-{k}")),
         };
-        let length = drawn(made, &format!("length-{k}"));
+        let length = drawn(realisation, &format!("length-{k}"));
         Sheet { origin, length }
     });
-    (sheets.collect(), low, high)
+    sheets.collect()
 }
 
 #[test]
@@ -157,6 +162,191 @@ fn clinothems_have_the_sizes_that_their_formula_gives_for_any_direction() {
         landings > 5,
         "too few sheets that land on older ones: {landings}"
     );
+}
+
+/// Whether the toes of two sheets cross at a strike that the domain has at that place.
+fn toes_cross(sheets: &[Sheet], azimuth: f64, [low, high]: [DVec3; 2]) -> bool {
+    let dip = DVec2::new(azimuth.sin(), azimuth.cos());
+    let strike = DVec2::new(dip.y, -dip.x);
+    let half = (high - low).truncate() / 2.0;
+    let toe = |sheet: &Sheet, q: f64| {
+        sheet.origin + (TD + sheet.length) * (1.0 - (q / (TS + sheet.length)).powi(2)).sqrt()
+    };
+    let reach = half.length();
+    let steps = 2000;
+    let crosses = |a: &Sheet, b: &Sheet| {
+        (0..steps).any(|k| {
+            let q = |k: i32| reach * (2.0 * f64::from(k) / f64::from(steps) - 1.0);
+            let off = |q: f64| toe(a, q) - toe(b, q);
+            let place = toe(a, q(k)) * dip + q(k) * strike;
+            place.abs().cmplt(0.98 * half).all() && off(q(k)) * off(q(k + 1)) < 0.0
+        })
+    };
+    (0..sheets.len()).any(|i| (0..i).any(|j| crosses(&sheets[i], &sheets[j])))
+}
+
+#[test]
+fn clinothems_whose_toes_cross_on_their_base_have_the_sizes_that_their_formula_gives() {
+    let mut crossing = 0;
+    for seed in 1..400 {
+        let azimuth = f64::from(seed * 37 % 360);
+        let text = SET
+            .replace("seed = 5", &format!("seed = {seed}"))
+            .replace("x = [0, 900]", "x = [0, 6000]")
+            .replace("y = [0, 400]", "y = [0, 5000]")
+            .replace("[100, 150]", "[2500, 3000]")
+            .replace("AZIMUTH", &azimuth.to_string());
+        let model = from_text(&text);
+        let realisation = Realisation::new(&model, &Selection::default()).unwrap();
+        let (low, high) = (realisation.extent.low(), realisation.extent.high());
+        let sheets = sheets_of(&realisation, azimuth, [low, high]);
+        if !toes_cross(&sheets, azimuth.to_radians(), [low, high]) {
+            continue;
+        }
+        crossing += 1;
+        let made = built(model);
+        let wanted = by_formula(&sheets, azimuth.to_radians(), low, high);
+        let names = ["background", "set-1", "set-2", "set-3", "set-4"];
+        let block = (high - low).element_product();
+        for (name, wanted) in names.iter().zip(wanted) {
+            let size = made.size(name);
+            // The sum over points is good to about 1e-6 of the block.
+            assert!(
+                (size - wanted).abs() < 5e-6 * block,
+                "seed {seed}, {azimuth}°: {name} is {size}, not {wanted}"
+            );
+        }
+        assert!(made.assembly.failed.is_empty(), "seed {seed}");
+        if crossing == 6 {
+            return;
+        }
+    }
+    panic!("only {crossing} sets have toes that cross");
+}
+
+/// Two sets of four sheets in one unit, the second one with a first step and a length of its own.
+fn twice(first: f64, length: f64, toe: &str) -> String {
+    let set = |id: &str, first: f64, length: f64| {
+        format!(
+            "[[feature]]\nid = \"{id}\"\nkind = \"clinoforms\"\nfacies = \"sand\"\nazimuth_deg = 320\nsheets = 4\n\
+             first = {first}\nspacing = 150\nlength = {length}\n{toe}"
+        )
+    };
+    let (domain, _) = SET.split_once("[[feature]]").unwrap();
+    format!(
+        "{domain}{}{}",
+        set("a", 100.0, 400.0),
+        set("b", first, length)
+    )
+}
+
+#[test]
+fn a_set_that_is_there_already_leaves_nothing_to_the_same_one_again() {
+    for toe in ["", "toe = 0.3\n", "exponent = 1.5\n"] {
+        let text = twice(100.0, 400.0, toe);
+        let (alone, _) = text.rsplit_once("[[feature]]").unwrap();
+        let (alone, both) = (built(from_text(alone)), built(from_text(&text)));
+        for name in ["background", "a-1", "a-2", "a-3", "a-4"] {
+            assert_eq!(both.size(name), alone.size(name), "{name}");
+        }
+        for k in 1..=4 {
+            assert_eq!(both.size(&format!("b-{k}")), 0.0);
+        }
+    }
+}
+
+#[test]
+fn sets_stacked_on_each_other_with_their_toes_at_one_place_are_each_half_as_high() {
+    let text = twice(100.0, 400.0, "");
+    let stacked = text.replace(
+        "[[feature]]\nid = \"b\"",
+        "[[feature]]\nid = \"h\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = -10 }\n\
+         [[feature]]\nid = \"b\"\nparent = \"h\"",
+    );
+    let made = built(from_text(&stacked));
+    let alone = built(from_text(text.rsplit_once("[[feature]]").unwrap().0));
+    let names = [("background", "h")];
+    let sheets = ["1", "2", "3", "4"].map(|k| (format!("a-{k}"), format!("h/b-{k}")));
+    let all = names.map(|(a, b)| (a.to_owned(), b.to_owned()));
+    for (lower, upper) in all.iter().chain(&sheets) {
+        let half = alone.size(lower) / 2.0;
+        for name in [lower, upper] {
+            let size = made.size(name);
+            assert!((size - half).abs() < 1e-3, "{name} is {size}, not {half}");
+        }
+    }
+}
+
+#[test]
+fn sets_stacked_on_each_other_with_the_same_belts_are_each_half_as_high() {
+    let belts = "belts = [\n  { name = \"near\", facies = \"sand\", width = 60 },\n  { name = \"far\", facies = \"sand\" },\n]\n";
+    let text = twice(100.0, 400.0, belts);
+    let stacked = text.replace(
+        "[[feature]]\nid = \"b\"",
+        "[[feature]]\nid = \"h\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = -10 }\n\
+         [[feature]]\nid = \"b\"\nparent = \"h\"",
+    );
+    let made = built(from_text(&stacked));
+    let alone = built(from_text(text.rsplit_once("[[feature]]").unwrap().0));
+    for k in 1..=4 {
+        for belt in ["near", "far"] {
+            let half = alone.size(&format!("a-{k}/{belt}")) / 2.0;
+            assert!(half > 1e4);
+            for name in [format!("a-{k}/{belt}"), format!("h/b-{k}/{belt}")] {
+                let size = made.size(&name);
+                // By age they are moved by a tenth of a millimetre at the most, on faces of 700 m × 10 m.
+                assert!((size - half).abs() < 1.0, "{name} is {size}, not {half}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_longer_set_with_the_same_shorelines_adds_nothing_to_the_one_that_is_there() {
+    let text = twice(100.0, 500.0, "");
+    let alone = built(from_text(text.rsplit_once("[[feature]]").unwrap().0));
+    let both = built(from_text(&text));
+    for name in ["background", "a-1", "a-2", "a-3", "a-4"] {
+        let (size, wanted) = (both.size(name), alone.size(name));
+        assert!(
+            (size - wanted).abs() < 1.0,
+            "{name} is {size}, not {wanted}"
+        );
+    }
+    for k in 1..=4 {
+        assert!(both.size(&format!("b-{k}")) < 1.0);
+    }
+}
+
+#[test]
+fn sets_whose_toes_touch_at_one_point_are_told_apart_by_age() {
+    // 50 m farther landward, and 50 m longer: the toes are the same where the ellipses have their apex, and nowhere else.
+    let made = built(from_text(&twice(50.0, 450.0, "")));
+    let extent = made.owners.extent();
+    let (low, high) = (extent.low(), extent.high());
+    let azimuth = 320.0_f64.to_radians();
+    let dip = DVec2::new(azimuth.sin(), azimuth.cos());
+    let half = (high - low).truncate() / 2.0;
+    let start = -(half.x * dip.x.abs() + half.y * dip.y.abs()) - TD;
+    let sheet = |first: f64, length: f64| Sheet {
+        origin: start + first,
+        length,
+    };
+    // The second set's first sheet lies below the first one's; the oldest clinothem ends at the lower of both.
+    let below = by_formula(
+        &[sheet(50.0, 450.0), sheet(100.0, 400.0)],
+        azimuth,
+        low,
+        high,
+    );
+    let block = (high - low).element_product();
+    for (name, wanted) in [("background", below[0]), ("b-1", below[1])] {
+        let size = made.size(name);
+        assert!(
+            (size - wanted).abs() < 5e-6 * block,
+            "{name} is {size}, not {wanted}"
+        );
+    }
 }
 
 /// Sheets 120 apart, the first one 130 from the west, each 400 long, with three belts.

@@ -274,3 +274,163 @@ fn regions_that_never_meet_need_not_be_compared() {
         near(one, other);
     }
 }
+
+/// Volume between the first two sheets' heights in a block on the base (m³), by sums over its plan: what lies under the first
+/// one, and what lies between it and the second one above it.
+fn under(sheets: [&Parabola; 2], [x, y, z]: [f64; 3]) -> [f64; 2] {
+    const CELLS: [u32; 2] = [4000, 2000];
+    let height = |sheet: &Parabola, at: DVec2| {
+        let s = (sheet.toe - at.dot(sheet.dip)) / sheet.length;
+        (sheet.height * s.max(0.0).powi(2)).min(z)
+    };
+    let mut sums = [0.0; 2];
+    for i in 0..CELLS[0] {
+        for j in 0..CELLS[1] {
+            let at = DVec2::new(
+                x * (f64::from(i) + 0.5) / f64::from(CELLS[0]),
+                y * (f64::from(j) + 0.5) / f64::from(CELLS[1]),
+            );
+            let [first, second] = sheets.map(|sheet| height(sheet, at));
+            sums[0] += first;
+            sums[1] += (second - first).max(0.0);
+        }
+    }
+    let cell = x * y / f64::from(CELLS[0] * CELLS[1]);
+    sums.map(|sum| sum * cell)
+}
+
+#[test]
+fn landings_that_cross_inside_the_block_end_the_curve_of_their_sheets_at_any_angle() {
+    let place = DVec2::new(2.3, 1.1);
+    for (turn, length) in [
+        (0.7, 1.3),
+        (-0.2, 1.3),
+        (0.05, 2.5),
+        (1e-3, 1.4),
+        (-1e-3, 3.1),
+        (2e-4, 1.1),
+        // Of one length, too: then it is the angle alone that tells them apart.
+        (0.3, 1.7),
+    ] {
+        let sheet = |angle: f64, length: f64| {
+            let dip = DVec2::from_angle(angle);
+            Parabola {
+                dip,
+                toe: place.dot(dip),
+                length,
+                base: 0.0,
+                height: 1.0,
+            }
+        };
+        let (older, younger) = (sheet(0.13, 1.7), sheet(0.13 + turn, length));
+        let size_of = [4.0, 2.0, 1.0];
+        let regions = [block([0.0; 3], size_of), older.region(), younger.region()];
+        let made = sound(&regions, onlapping);
+        let [oldest, middle] = under([&older, &younger], size_of);
+        // The sums are good to some 1e-6.
+        let close = |label: usize, wanted: f64| {
+            let size = size(&made, label);
+            assert!(
+                (size - wanted).abs() < 4e-6,
+                "{turn}, {length}: {label} is {size}, not {wanted}"
+            );
+        };
+        close(0, oldest);
+        close(1, middle);
+        close(2, 8.0 - oldest - middle);
+        // Both landings, and the curve of both sheets, end or turn at one vertex.
+        let at = |vertex: &&clinothem::partition::Vertex| {
+            vertex.point.distance(place.extend(0.0)) < 1e-7
+        };
+        assert_eq!(
+            made.topology.vertices.iter().filter(at).count(),
+            1,
+            "{turn}"
+        );
+    }
+}
+
+#[test]
+fn landings_that_cross_twice_leave_a_curve_with_both_ends_on_the_base() {
+    // A bent landing and a straight one: the toe of the first is an arc, as of a shoreline.
+    for (bend, reach) in [(0.2, 0.1), (0.02, 0.013)] {
+        let bowed = Bowed {
+            toe: 2.5,
+            bend,
+            length: 1.9,
+        };
+        let straight = Parabola {
+            dip: EAST,
+            toe: 2.5 - reach,
+            length: 1.2,
+            base: 0.0,
+            height: 1.0,
+        };
+        let regions = [
+            block([0.0, -1.0, 0.0], [4.0, 1.0, 1.0]),
+            bowed.region(),
+            straight.region(),
+        ];
+        let made = sound(&regions, onlapping);
+        let y = (reach / bend).sqrt();
+        for y in [-y, y] {
+            let place = DVec3::new(2.5 - reach, y, 0.0);
+            let at = |vertex: &&clinothem::partition::Vertex| vertex.point.distance(place) < 1e-7;
+            assert_eq!(
+                made.topology.vertices.iter().filter(at).count(),
+                1,
+                "{bend}"
+            );
+        }
+        // Under the bowed one, column by column: ∫ ((toe − x)/length)² with the top cut off.
+        let columns = 20_000;
+        let under = |k: i32| {
+            let y = 2.0 * (f64::from(k) + 0.5) / f64::from(columns) - 1.0;
+            let toe = 2.5 - bend * y * y;
+            toe - bowed.length + bowed.length / 3.0
+        };
+        let wanted = (0..columns).map(under).sum::<f64>() * 2.0 / f64::from(columns);
+        assert!((size(&made, 0) - wanted).abs() < 1e-7, "{bend}");
+    }
+}
+
+/// As [`Parabola`] dipping east, with a toe that lags behind by `bend y²`.
+#[derive(Clone, Copy, Debug)]
+struct Bowed {
+    toe: f64,
+    bend: f64,
+    length: f64,
+}
+
+impl Membership for Bowed {
+    fn holds(&self, point: DVec3) -> bool {
+        let toe = self.toe - self.bend * point.y * point.y;
+        let u = 1.0 - (toe - point.x) / self.length;
+        u > EXTENDED && (u >= 1.0 || point.z > (1.0 - u).powi(2))
+    }
+}
+
+impl Bowed {
+    fn region(self) -> Region {
+        let ends = [EXTENDED, 1.0];
+        // Blossoms of u and of (1 − u)², and of y and y² for −1.5 ≤ y ≤ 1.5.
+        let down = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| {
+            let (a, b) = (ends[i], ends[j]);
+            (0.5 * (a + b), (1.0 - a) * (1.0 - b))
+        });
+        let along = [(-1.5, 2.25), (0.0, -2.25), (1.5, 2.25)];
+        let mut net = Vec::new();
+        for (u, w) in down {
+            for (y, squared) in along {
+                let x = self.toe - self.bend * squared - (1.0 - u) * self.length;
+                net.push(DVec3::new(x, y, w));
+            }
+        }
+        let u = KnotVector::new(2, vec![EXTENDED, EXTENDED, EXTENDED, 1.0, 1.0, 1.0]).unwrap();
+        let v = KnotVector::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]).unwrap();
+        Region::Side {
+            surfaces: vec![Surface::new(u, v, net).unwrap()],
+            inside: Arc::new(self),
+        }
+    }
+}

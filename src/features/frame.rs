@@ -80,8 +80,9 @@ impl ClinoformFrame {
         }
         let dip = azimuth_vector(azimuth);
         let strike = DVec2::new(dip.y, -dip.x);
+        let middle = (low + high) / 2.0;
         let mut frame = Self {
-            centre: (low + high) / 2.0 + by * (dip + ASIDE * strike),
+            centre: middle,
             dip,
             strike,
             corners: [DVec2::ZERO; 4],
@@ -95,7 +96,9 @@ impl ClinoformFrame {
             DVec2::new(low.x, high.y),
             high,
         ];
+        // Seen from where the frame was: what begins at a corner is moved with it.
         frame.corners = plan.map(|corner| frame.local(corner));
+        frame.centre = middle + by * (dip + ASIDE * strike);
         let half = frame.corners.iter().map(|c| c.y.abs()).fold(0.0, f64::max);
         frame.reach = half * (1.0 + STRIKE_MARGIN);
         Ok(frame)

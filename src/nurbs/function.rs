@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 /// Where a span between two knots is compared with what it shall follow, as fractions. Uneven, so that a wave as long
 /// as the span cannot hide between them.
-const PROBES: [f64; 5] = [0.11, 0.3, 0.52, 0.71, 0.9];
+pub(crate) const PROBES: [f64; 5] = [0.11, 0.3, 0.52, 0.71, 0.9];
 
 /// A polynomial spline function.
 #[derive(Clone, Debug, PartialEq)]

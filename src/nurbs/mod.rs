@@ -38,7 +38,7 @@ pub use closest::{Closest, ClosestOnSurface};
 pub use curve::{Curve, CurveError};
 pub use elevate::ElevateError;
 pub use function::Function;
-pub(crate) use function::spans_probed;
+pub(crate) use function::{PROBES, spans_probed};
 pub use knots::{Basis, KnotError, KnotVector, MAX_DEGREE};
 pub use lattice::{Lattice, LatticeError};
 pub use refine::RefineError;

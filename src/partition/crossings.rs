@@ -20,6 +20,7 @@ use super::pierce::{Piercing, Root};
 use super::region::Regions;
 use super::seeds::Search;
 use super::sheet::Border;
+use super::touch::Touches;
 use super::triples::Thirds;
 
 /// An edge passing through a sheet.
@@ -27,6 +28,8 @@ use super::triples::Thirds;
 pub(super) struct EdgeRoot {
     pub(super) edge: usize,
     pub(super) sheet: usize,
+    /// The sheet's border, if it lies on that: where two landings cross.
+    pub(super) corner: Option<Border>,
     pub(super) root: Root,
 }
 
@@ -86,9 +89,23 @@ struct Start {
     /// Which of the pair's sheets has the edge.
     side: usize,
     border: Border,
+    /// And the border of the other one, if it lies on that.
+    corner: Option<Border>,
     q: [f64; 4],
     point: DVec3,
     used: bool,
+}
+
+impl Start {
+    /// Whether it lies on a border of one of the pair's sheets.
+    fn is_on(&self, side: usize, border: Border) -> bool {
+        let own = if side == self.side {
+            Some(self.border)
+        } else {
+            self.corner
+        };
+        own == Some(border)
+    }
 }
 
 struct Traced {
@@ -108,10 +125,14 @@ impl Crossings {
     /// What follows once the roots of all edges are known.
     pub(super) fn from_roots(
         regions: &Regions,
-        roots: Vec<EdgeRoot>,
+        mut roots: Vec<EdgeRoot>,
         settings: Settings<'_>,
         faults: &mut Faults,
     ) -> Self {
+        let far = far(regions, &settings.clip);
+        let touches = Touches::find(regions, settings, &far);
+        faults.undecided += touches.undecided;
+        roots.extend(&touches.roots);
         let Settings {
             tolerances,
             clip,
@@ -120,7 +141,7 @@ impl Crossings {
         let traced: Vec<Traced> = pairs(regions, &clip, tolerances)
             .into_par_iter()
             .filter(|_| !stop())
-            .map(|sheets| trace(regions, sheets, &roots, tolerances, clip))
+            .map(|sheets| trace(regions, sheets, &roots, &touches, settings))
             .collect();
         let mut crossings = Vec::new();
         let mut doubtful = Vec::new();
@@ -153,7 +174,7 @@ impl Crossings {
             .into_par_iter()
             .filter(|_| !stop())
             .map(|at| {
-                let thirds = Thirds::of(regions, &crossings, at, tolerances, clip).find();
+                let thirds = Thirds::of(regions, &crossings, at, settings).find();
                 (thirds.found, thirds.undecided)
             })
             .collect();
@@ -162,7 +183,7 @@ impl Crossings {
             faults.undecided += undecided;
             all.extend(triples);
         }
-        pass_through(regions, &mut crossings, &all, tolerances);
+        pass_through(regions, &mut crossings, &all, &touches, tolerances);
         Self {
             doubtful,
             doubts,
@@ -224,7 +245,13 @@ pub(super) fn edge_roots(
                 (found.roots, found.undecided)
             };
             undecided += doubtful;
-            roots.extend(found.into_iter().map(|root| EdgeRoot { edge, sheet, root }));
+            let at = |root| EdgeRoot {
+                edge,
+                sheet,
+                corner: None,
+                root,
+            };
+            roots.extend(found.into_iter().map(at));
         }
         (roots, undecided)
     };
@@ -240,20 +267,46 @@ pub(super) fn edge_roots(
     roots
 }
 
+/// The box to which curves are followed.
+fn far(regions: &Regions, clip: &Bounds) -> Bounds {
+    let beyond = FAR * (regions.domain.high - regions.domain.low);
+    Bounds {
+        low: clip.low - beyond,
+        high: clip.high + beyond,
+    }
+}
+
 /// The branches of one pair of sheets.
 fn trace(
     regions: &Regions,
     sheets: [usize; 2],
     roots: &[EdgeRoot],
-    tolerances: Tolerances,
-    clip: Bounds,
+    touches: &Touches<'_>,
+    settings: Settings<'_>,
 ) -> Traced {
-    let pair = Pair::new(sheets.map(|at| &regions.sheets[at]), tolerances);
-    let beyond = FAR * (regions.domain.high - regions.domain.low);
-    let far = Bounds {
-        low: clip.low - beyond,
-        high: clip.high + beyond,
-    };
+    let pair = Pair::new(sheets.map(|at| &regions.sheets[at]), settings.tolerances);
+    if let lifted @ Some(_) = touches.lifted(sheets) {
+        return follow(regions, (sheets, pair.lifted(lifted)), roots, settings);
+    }
+    let traced = follow(regions, (sheets, pair), roots, settings);
+    // Sheets that touch one level side by side are too near each other there, however far their landings are apart.
+    match touches.lift(sheets) {
+        lifted @ Some(_) if !traced.faults.is_none() => {
+            follow(regions, (sheets, pair.lifted(lifted)), roots, settings)
+        }
+        _ => traced,
+    }
+}
+
+fn follow(
+    regions: &Regions,
+    (sheets, pair): ([usize; 2], Pair<'_>),
+    roots: &[EdgeRoot],
+    Settings {
+        tolerances, clip, ..
+    }: Settings<'_>,
+) -> Traced {
+    let far = far(regions, &clip);
     let mut starts = starts(regions, sheets, roots);
     let stop = |start: &Start| Stop {
         point: start.point,
@@ -352,6 +405,7 @@ fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Star
                     root,
                     side: own,
                     border: side.border,
+                    corner: found.corner,
                     q: [a.x, a.y, b.x, b.y],
                     point: found.root.point,
                     used: false,
@@ -381,9 +435,7 @@ fn ends_at_used_root(branch: &Branch, starts: &[Start], tolerances: Tolerances) 
         };
         let point = branch.end(which).point();
         let mut here = starts.iter().filter(|start| {
-            start.side == side
-                && start.border == border
-                && start.point.distance(point) < MATCH * tolerances.scale
+            start.is_on(side, border) && start.point.distance(point) < MATCH * tolerances.scale
         });
         here.next().is_some_and(|first| first.used) && here.all(|start| start.used)
     })
@@ -406,7 +458,7 @@ fn finish(
         let point = branch.end(which).point();
         let nearest = starts
             .iter_mut()
-            .filter(|start| !start.used && start.side == side && start.border == border)
+            .filter(|start| !start.used && start.is_on(side, border))
             .map(|start| (start.point.distance(point), start))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         match nearest {
@@ -425,11 +477,13 @@ fn pass_through(
     regions: &Regions,
     crossings: &mut [Crossing],
     triples: &[Triple],
+    touches: &Touches<'_>,
     tolerances: Tolerances,
 ) {
     for triple in triples {
         let Crossing { sheets, branch } = &mut crossings[triple.crossing];
-        let pair = Pair::new(sheets.map(|at| &regions.sheets[at]), tolerances);
+        let lifted = touches.lifted(*sheets);
+        let pair = Pair::new(sheets.map(|at| &regions.sheets[at]), tolerances).lifted(lifted);
         let towards = branch.in_space(triple.t)[1];
         if let Some(node) = pair.node(triple.q, Some(towards)) {
             branch.insert(triple.t, node);

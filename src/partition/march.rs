@@ -311,11 +311,17 @@ impl March<'_> {
     fn border(&self, here: &Node, q: &mut [f64; 4]) -> Crossing {
         let from = here.parameters();
         let sheets = self.pair.sheets;
+        // Where two landings cross a curve ends on both.
+        let beside = if self.pair.lifted.is_some() {
+            1e-9
+        } else {
+            1e-12
+        };
         let overshoot = |q: &[f64; 4], except: Option<usize>| {
             let mut first: Option<(f64, usize, bool)> = None;
             for i in (0..4).filter(|i| Some(*i) != except) {
                 let (sheet, axis) = (sheets[i / 2], i % 2);
-                let slack = 1e-12 * sheet.length(axis);
+                let slack = beside * sheet.length(axis);
                 let high = q[i] > sheet.high(axis) + slack;
                 if !high && q[i] >= sheet.low(axis) - slack {
                     continue;

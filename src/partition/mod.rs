@@ -9,6 +9,7 @@
 //! 2. `pierce`, `seeds`, `march`, `crossings`: where edges pass through sheets, where sheets cross, where three
 //!    meet. Curves are pieces of degree 5 with one parameter in space and on both sheets, and a measured
 //!    deviation.
+//!    `touch`: sheets that touch one level, where their contacts cross.
 //! 3. `tracks`, `arcs`, `landing`: curves cut at vertices, each made once; sectors around each piece, labelled.
 //! 4. `faces`, `solids`: half-edges linked by angle into loops, loops into faces, faces into solids.
 //! 5. `quadrature`, `check`: volumes and areas, and counts of whatever contradicts itself.
@@ -50,6 +51,7 @@ mod sheet;
 mod solids;
 mod solve;
 mod topology;
+mod touch;
 mod tracks;
 mod triples;
 mod twins;

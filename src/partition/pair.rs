@@ -4,8 +4,10 @@ use glam::{DVec3, Vec3Swizzles};
 
 use super::heights::Heights;
 use super::hermite::Node;
+use super::patch::Jet;
 use super::sheet::Sheet;
 use super::solve::solve;
+use super::touch::Lifted;
 
 /// What is small, in metres: fractions of the domain's size.
 #[derive(Clone, Copy, Debug)]
@@ -118,6 +120,8 @@ pub(super) struct Pair<'a> {
     pub(super) tolerances: Tolerances,
     /// Both as heights over one plan, if they are.
     pub(super) heights: Option<Heights<'a>>,
+    /// Both lifted, if they touch one level and cross up to there.
+    pub(super) lifted: Option<Lifted<'a>>,
 }
 
 impl<'a> Pair<'a> {
@@ -126,6 +130,27 @@ impl<'a> Pair<'a> {
             sheets,
             tolerances,
             heights: Heights::of(sheets),
+            lifted: None,
+        }
+    }
+
+    /// The same, lifted.
+    pub(super) fn lifted(self, lifted: Option<Lifted<'a>>) -> Self {
+        Self { lifted, ..self }
+    }
+
+    /// Points and derivatives of both sheets, lifted if they are.
+    fn jets(&self, q: &[f64; 4]) -> [Jet; 2] {
+        match &self.lifted {
+            Some(lifted) => lifted.jets(self.sheets, q),
+            None => [0, 1].map(|side| self.sheets[side].jet(q[2 * side], q[2 * side + 1])),
+        }
+    }
+
+    fn first_jets(&self, q: &[f64; 4]) -> [(DVec3, DVec3, DVec3); 2] {
+        match &self.lifted {
+            Some(_) => self.jets(q).map(|jet| (jet.p, jet.u, jet.v)),
+            None => [0, 1].map(|side| self.sheets[side].first_jet(q[2 * side], q[2 * side + 1])),
         }
     }
 
@@ -151,11 +176,15 @@ impl<'a> Pair<'a> {
         if let Some(heights) = &self.heights {
             return heights.newton(q, closing, most, ranges, &self.tolerances);
         }
+        let closing = match (closing, &self.lifted) {
+            // A plane upright on the level is the same for what is lifted.
+            (Closing::Plane(normal, point), Some(lifted)) => {
+                Closing::Plane(lifted.along_level(normal), point)
+            }
+            _ => closing,
+        };
         for _ in 0..most {
-            let jets = [
-                self.sheets[0].first_jet(q[0], q[1]),
-                self.sheets[1].first_jet(q[2], q[3]),
-            ];
+            let jets = self.first_jets(q);
             let Some(step) = Step::new(&jets, q, closing) else {
                 return false;
             };
@@ -178,44 +207,13 @@ impl<'a> Pair<'a> {
         if let Some(heights) = &self.heights {
             return heights.node(q, towards, &self.tolerances);
         }
-        let a = self.sheets[0].jet(q[0], q[1]);
-        let b = self.sheets[1].jet(q[2], q[3]);
-        let (na, nb) = (a.normal(), b.normal());
-        let (ga, gb) = (na.length_squared(), nb.length_squared());
-        let cross = na.cross(nb);
-        let length = cross.length();
-        let sine = length / (ga * gb).sqrt();
-        if !(sine > PARALLEL) {
-            return None;
-        }
-        let mut tangent = cross / length;
-        if towards.is_some_and(|d| d.dot(tangent) < 0.0) {
-            tangent = -tangent;
-        }
-        // Components of a tangent vector in a sheet's own parameters.
-        let split = |w: DVec3, u: DVec3, v: DVec3, n: DVec3, g: f64| {
-            [w.cross(v).dot(n) / g, u.cross(w).dot(n) / g]
+        let jets = self.jets(&q);
+        let Some(lifted) = &self.lifted else {
+            return node_of(&jets, q, towards);
         };
-        let da = split(tangent, a.u, a.v, na, ga);
-        let db = split(tangent, b.u, b.v, nb, gb);
-        let bend = |jet: &super::patch::Jet, d: [f64; 2]| {
-            d[0] * d[0] * jet.uu + 2.0 * d[0] * d[1] * jet.uv + d[1] * d[1] * jet.vv
-        };
-        let (qa, qb) = (bend(&a, da), bend(&b, db));
-        // The curvature vector is normal to the tangent and has each sheet's normal curvature.
-        let determinant = tangent.dot(na.cross(nb));
-        let curvature =
-            (na.dot(qa) * nb.cross(tangent) + nb.dot(qb) * tangent.cross(na)) / determinant;
-        let ea = split(curvature - qa, a.u, a.v, na, ga);
-        let eb = split(curvature - qb, b.u, b.v, nb, gb);
-        let point = 0.5 * (a.p + b.p);
-        let join = |x: DVec3, y: [f64; 2], z: [f64; 2]| [x.x, x.y, x.z, y[0], y[1], z[0], z[1]];
-        Some(Node {
-            value: join(point, [q[0], q[1]], [q[2], q[3]]),
-            first: join(tangent, da, db),
-            second: join(curvature, ea, eb),
-            sine,
-        })
+        let node = lifted.back(&node_of(&jets, q, None)?);
+        let turns = towards.is_some_and(|d| d.dot(node.tangent()) < 0.0);
+        Some(if turns { node.reversed() } else { node })
     }
 
     /// Farthest of a piece from both sheets, at some fractions of its length.
@@ -243,7 +241,58 @@ impl<'a> Pair<'a> {
                     ACROSS * off
                 });
             }
+            if let Some(lifted) = &self.lifted {
+                // So are sheets that touch one level.
+                let q = std::array::from_fn(|i| value[3 + i]);
+                let [a, b] = lifted.jets(self.sheets, &q);
+                let (na, nb) = (a.normal().normalize(), b.normal().normalize());
+                let off = (a.p - b.p).dot(na).abs() / na.cross(nb).length();
+                most = most.max(if off.is_nan() {
+                    f64::INFINITY
+                } else {
+                    ACROSS * off
+                });
+            }
         }
         most
     }
+}
+
+/// The node of two sheets' curve at a common point with these derivatives, running along `towards` if given.
+fn node_of([a, b]: &[Jet; 2], q: [f64; 4], towards: Option<DVec3>) -> Option<Node> {
+    let (na, nb) = (a.normal(), b.normal());
+    let (ga, gb) = (na.length_squared(), nb.length_squared());
+    let cross = na.cross(nb);
+    let length = cross.length();
+    let sine = length / (ga * gb).sqrt();
+    if !(sine > PARALLEL) {
+        return None;
+    }
+    let mut tangent = cross / length;
+    if towards.is_some_and(|d| d.dot(tangent) < 0.0) {
+        tangent = -tangent;
+    }
+    // Components of a tangent vector in a sheet's own parameters.
+    let split = |w: DVec3, u: DVec3, v: DVec3, n: DVec3, g: f64| {
+        [w.cross(v).dot(n) / g, u.cross(w).dot(n) / g]
+    };
+    let da = split(tangent, a.u, a.v, na, ga);
+    let db = split(tangent, b.u, b.v, nb, gb);
+    let bend = |jet: &Jet, d: [f64; 2]| {
+        d[0] * d[0] * jet.uu + 2.0 * d[0] * d[1] * jet.uv + d[1] * d[1] * jet.vv
+    };
+    let (qa, qb) = (bend(a, da), bend(b, db));
+    // The curvature vector is normal to the tangent and has each sheet's normal curvature.
+    let determinant = tangent.dot(na.cross(nb));
+    let curvature = (na.dot(qa) * nb.cross(tangent) + nb.dot(qb) * tangent.cross(na)) / determinant;
+    let ea = split(curvature - qa, a.u, a.v, na, ga);
+    let eb = split(curvature - qb, b.u, b.v, nb, gb);
+    let point = 0.5 * (a.p + b.p);
+    let join = |x: DVec3, y: [f64; 2], z: [f64; 2]| [x.x, x.y, x.z, y[0], y[1], z[0], z[1]];
+    Some(Node {
+        value: join(point, [q[0], q[1]], [q[2], q[3]]),
+        first: join(tangent, da, db),
+        second: join(curvature, ea, eb),
+        sine,
+    })
 }

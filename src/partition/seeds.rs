@@ -12,7 +12,7 @@ use super::facet::Facet;
 use super::hermite::{Branch, Node};
 use super::pair::{Closing, PARALLEL, Pair, Step, lies};
 use super::patch::Patch;
-use super::sheet::NodeKind;
+use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 1e-5;
@@ -35,6 +35,12 @@ const RATIO: f64 = 4.0;
 pub(super) struct Search<'a, F> {
     pub(super) pair: Pair<'a>,
     pub(super) clip: Bounds,
+    /// What is halved: the sheets, or splines of them lifted.
+    shapes: [&'a Sheet; 2],
+    /// Where these may be.
+    around: Bounds,
+    /// Sheets nearer than curves are computed to are not apart: they touch.
+    slack: f64,
     pub(super) branches: Vec<Branch>,
     pub(super) found: F,
     /// Whether both regions may matter at a place; elsewhere sheets may come as near as they like.
@@ -67,7 +73,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         found: F,
         matters: &'a dyn Fn(DVec3) -> bool,
     ) -> Self {
+        let lifted = pair.lifted;
         Self {
+            shapes: lifted.map_or(pair.sheets, |lifted| lifted.shapes()),
+            around: lifted.map_or(clip, |lifted| lifted.around(&clip)),
+            slack: pair.tolerances.curve + lifted.map_or(0.0, |lifted| lifted.slack()),
             pair,
             clip,
             branches,
@@ -82,22 +92,22 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     pub(super) fn run(&mut self) {
-        let [a, b] = self.pair.sheets;
+        let [a, b] = self.shapes;
         self.nodes(a.root(), b.root());
     }
 
     fn nodes(&mut self, i: usize, j: usize) {
-        let [a, b] = self.pair.sheets;
+        let [a, b] = self.shapes;
         let (x, y) = (a.node(i), b.node(j));
-        let apart_by_boxes = !x.bounds.grown(self.slack()).meets(&y.bounds);
-        if apart_by_boxes || !self.clip.meets(&x.bounds) || !self.clip.meets(&y.bounds) {
+        let apart_by_boxes = !x.bounds.grown(self.slack).meets(&y.bounds);
+        if apart_by_boxes || !self.around.meets(&x.bounds) || !self.around.meets(&y.bounds) {
             return;
         }
         match (x.kind, y.kind) {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
                 let (one, other) = (a.patch(p), b.patch(q));
                 let beside = self.twins && are_beside(&one, &other);
-                if !beside && !apart(&one, &other, self.slack()) {
+                if !beside && !apart(&one, &other, self.slack) {
                     self.patches(&a.facet(p), &b.facet(q));
                 }
             }
@@ -127,12 +137,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
-        let clip = self.clip;
+        let (clip, around) = (self.clip, self.around);
         let flat = a.lean() < FLAT && b.lean() < FLAT;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
         // Where boxes and slabs overlap they may still be apart along the line of their planes.
-        if flat && a.is_past(b, self.slack()) {
+        if flat && a.is_past(b, self.slack) {
             return;
         }
         if flat && a.is_askew(b) {
@@ -158,7 +168,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             if is_small {
                 if self.land(a, b, |_| true).is_none() && !self.passes_by(a, b) {
                     let [u, v] = a.patch.middle();
-                    self.undecided += usize::from((self.matters)(a.patch.point(u, v)));
+                    let point = self.pair.sheets[0].point(u, v);
+                    self.undecided += usize::from((self.matters)(point));
                 }
                 return;
             }
@@ -171,9 +182,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             a.lean() > b.lean()
         };
         let (halved, other) = if first { (a, b) } else { (b, a) };
-        let (slack, twins) = (self.slack(), self.twins);
+        let (slack, twins) = (self.slack, self.twins);
         halved.halve(
-            |bounds| bounds.grown(slack).meets(&other.patch.bounds) && clip.meets(bounds),
+            |bounds| bounds.grown(slack).meets(&other.patch.bounds) && around.meets(bounds),
             |half| {
                 let beside = twins && are_beside(half, &other.patch);
                 !beside && !apart(half, &other.patch, slack)
@@ -298,11 +309,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             (distance < near).then_some(Landing::On(at, t))
         };
         self.branches.iter().enumerate().find_map(passes)
-    }
-
-    /// Sheets nearer than curves are computed to are not apart: they touch.
-    fn slack(&self) -> f64 {
-        self.pair.tolerances.curve
     }
 
     /// Whether the search was given up.

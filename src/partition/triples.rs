@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::along::Along;
 use super::bounds::Bounds;
 use super::common::Common;
-use super::crossings::{Crossing, MATCH, Triple};
+use super::crossings::{Crossing, MATCH, Settings, Triple};
 use super::heights::Heights;
 use super::hermite;
 use super::pair::Tolerances;
@@ -43,8 +43,9 @@ impl<'a> Thirds<'a> {
         regions: &'a Regions,
         crossings: &'a [Crossing],
         at: usize,
-        tolerances: Tolerances,
-        clip: Bounds,
+        Settings {
+            tolerances, clip, ..
+        }: Settings<'_>,
     ) -> Self {
         let crossing = &crossings[at];
         let branch = &crossing.branch;

@@ -9,6 +9,7 @@
 
 mod contacts;
 mod isochores;
+mod newcomer;
 mod real_data;
 mod section;
 mod spline;

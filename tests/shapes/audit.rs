@@ -181,8 +181,9 @@ fn samples_agree_with_the_rule(topology: &Topology, regions: &[Region], rule: Ru
         assert!(!samples.is_empty(), "face {at} has no sample");
         for (point, normal) in samples {
             let around = |beside: f64| [-beside, beside].map(|d| label(point + d * normal));
-            // What is thinner than the distance is looked at from nearer.
-            if around(1e-2 * beside) != face.labels {
+            // What is thinner than the distance is looked at from nearer: beside a place where landings cross it is thin.
+            let is_seen = |nearer: f64| around(nearer * beside) == face.labels;
+            if ![1e-2, 1e-4, 1e-6].into_iter().any(is_seen) {
                 assert_eq!(around(beside), face.labels, "face {at} at {point}");
             }
         }

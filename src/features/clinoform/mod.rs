@@ -14,8 +14,9 @@
 //!
 //! The ellipses are cubic splines in v. Between level horizons with E = 2 the net is exact in u, with three control
 //! points; else z is interpolated, with cubic splines that are refined until the sheet is near enough to the
-//! formula in the domain ([`ClinoformFrame::tolerance`] in plan, [`ClinoformUnit::tolerance`] in elevation). \[J19\] measures radially instead of along dip; for its Table 1 this makes a
-//! difference of less than 3 mm in z.
+//! formula in the domain ([`ClinoformFrame::tolerance`] in plan, [`ClinoformUnit::tolerance`] in elevation): evenly at
+//! first, then where it is not. \[J19\] measures radially instead of along dip; for its Table 1 this makes a difference
+//! of less than 3 mm in z.
 
 mod net;
 
@@ -76,7 +77,7 @@ pub enum ClinoformError {
     /// The finest sheet is not near enough to the formula.
     #[error(
         "with {spans} spans the clinoform is still {reached:.4} m from its formula ({what}), more than {tolerance:.4} m; \
-         make the horizons smoother, the shoreline's ellipse wider or the exponent smaller"
+         make the shoreline's ellipse wider or the exponent smaller"
     )]
     Deviation {
         /// What deviates.
@@ -87,6 +88,24 @@ pub enum ClinoformError {
         tolerance: f64,
         /// The spans in the direction that was refined.
         spans: usize,
+    },
+    /// Between bent horizons the finest net is not near enough to the formula.
+    #[error(
+        "with {points} control points the clinoform is still {reached:.4} m from its formula between its horizons at \
+         x = {x:.1} m, y = {y:.1} m, more than {tolerance:.4} m; make the horizons smoother there: fewer nodes, a greater \
+         `tolerance`, or heights without noise"
+    )]
+    TooBent {
+        /// Easting of the place (m).
+        x: f64,
+        /// Northing of the place (m).
+        y: f64,
+        /// By how much the net deviates there (m).
+        reached: f64,
+        /// The most that is allowed (m).
+        tolerance: f64,
+        /// Control points of the net.
+        points: usize,
     },
     /// The net cannot be interpolated.
     #[error("the clinoform cannot be interpolated: {0}")]

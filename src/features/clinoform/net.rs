@@ -5,12 +5,16 @@ use glam::DVec2;
 use super::{ClinoformDesign, ClinoformError};
 use crate::features::frame::{ClinoformFrame, ClinoformUnit};
 use crate::nurbs::interpolate::{self, InterpolateError};
-use crate::nurbs::{Function, KnotError, KnotVector, spans_probed};
+use crate::nurbs::{Basis, Function, KnotError, KnotVector, PROBES, spans_probed};
 
 /// Fewest spans along strike.
 const STRIKE_SPANS: usize = 14;
-/// Most spans in either direction.
+/// Most spans of equal kind in either direction; beyond, only those are divided in which the net is not near enough.
 const MOST_SPANS: usize = 64;
+/// Most control points of a net. The assembly takes some kilobytes for each.
+const MOST_POINTS: usize = 40_000;
+/// A span is divided into no more pieces than this at once.
+const MOST_PIECES: f64 = 4.0;
 /// How far around the domain the deviation is measured, as a fraction of its extents.
 const AROUND: f64 = 0.05;
 
@@ -51,36 +55,62 @@ impl Fit<'_> {
             }
             spans_v = more(spans_v, "its ellipses", [reached, in_plan])?;
         };
-        let mut along = along;
         if let Some((base, top)) = self.unit.levels() {
             return self.level(base, top - base, along, ellipses);
         }
         let tolerance = self.unit.tolerance();
+        let origin = self.unit.base().level().unwrap_or(0.0);
+        let (mut across, mut along) = (self.across(spans_u, 3)?, along);
         loop {
-            let across = self.across(spans_u, 3)?;
-            let origin = self.unit.base().level().unwrap_or(0.0);
             let z = |u: f64, v: f64| self.elevation(&ellipses, u, v) - origin;
             let heights = interpolate::net(&across, &along, z)?;
-            let [off_u, off_v, off] = self.deviations(&across, &along, &heights, &ellipses, &z);
-            let heights: Vec<f64> = heights.iter().map(|z| z + origin).collect();
-            if off <= tolerance {
+            let misses = self.misses([&across, &along], &heights, &ellipses, &z);
+            if misses.worst.0 <= tolerance {
                 return Ok(Net {
+                    heights: heights.iter().map(|z| z + origin).collect(),
                     across,
                     along,
-                    heights,
                     ellipses,
-                    deviation: off,
+                    deviation: misses.worst.0,
                 });
             }
             // The direction to blame; both if neither is.
-            let both = !(off_u > tolerance / 2.0 || off_v > tolerance / 2.0);
-            if both || off_u > tolerance / 2.0 {
-                spans_u = more(spans_u, "elevations down dip", [off, tolerance])?;
+            let [mut in_u, mut in_v] = misses
+                .spans
+                .each_ref()
+                .map(|own| largest(own) > tolerance / 2.0);
+            if !(in_u || in_v) {
+                (in_u, in_v) = (true, true);
             }
-            if both || off_v > tolerance / 2.0 {
-                spans_v = more(spans_v, "elevations along strike", [off, tolerance])?;
-                along = KnotVector::uniform(3, spans_v + 3)?;
+            if in_u {
+                across = match finer(spans_u) {
+                    Some(spans) => {
+                        spans_u = spans;
+                        self.across(spans, 3)?
+                    }
+                    None => misses.divided(0, &across, tolerance)?,
+                };
+            }
+            if in_v {
+                along = match finer(spans_v) {
+                    Some(spans) => {
+                        spans_v = spans;
+                        KnotVector::uniform(3, spans + 3)?
+                    }
+                    None => misses.divided(1, &along, tolerance)?,
+                };
                 ellipses = self.ellipses(&along)?.0;
+            }
+            let points = across.count() * along.count();
+            let (reached, place) = misses.worst;
+            if !(heights.len() + 1..=MOST_POINTS).contains(&points) || !reached.is_finite() {
+                return Err(ClinoformError::TooBent {
+                    x: place.x,
+                    y: place.y,
+                    reached,
+                    tolerance,
+                    points: heights.len(),
+                });
             }
         }
     }
@@ -183,67 +213,141 @@ impl Fit<'_> {
     }
 
     /// How far the net's surface is from the formula in the domain: at the places that tell of u, of v, and anywhere.
-    fn deviations(
+    fn misses(
         &self,
-        across: &KnotVector,
-        along: &KnotVector,
+        knots: [&KnotVector; 2],
         heights: &[f64],
         [top, toe]: &[Function; 2],
         z: &impl Fn(f64, f64) -> f64,
-    ) -> [f64; 3] {
-        let at = |u: f64, v: f64| {
-            let (in_u, in_v) = (across.basis(u), along.basis(v));
+    ) -> Misses {
+        let columns = knots[1].count();
+        let at = |in_u: &Basis, in_v: &Basis| {
             let rows = in_u.values().iter().enumerate().map(|(i, n)| {
-                let first = (in_u.first() + i) * along.count() + in_v.first();
+                let first = (in_u.first() + i) * columns + in_v.first();
                 let own = heights[first..].iter().zip(in_v.values());
                 n * own.map(|(c, m)| c * m).sum::<f64>()
             });
             rows.sum::<f64>()
         };
-        let greville = |knots: &KnotVector| {
-            (0..knots.count())
-                .map(|i| knots.greville(i))
-                .collect::<Vec<_>>()
+        let probes = knots.map(|knots| Stations::new(knots, spans_probed(knots).collect()));
+        let nodes = knots.map(|knots| {
+            let greville = (0..knots.count()).map(|i| knots.greville(i));
+            Stations::new(knots, greville.collect())
+        });
+        let mut misses = Misses {
+            worst: (0.0, DVec2::ZERO),
+            spans: probes.each_ref().map(|own| vec![0.0; own.spans()]),
         };
-        let (probes_u, probes_v): (Vec<f64>, Vec<f64>) = (
-            spans_probed(across).collect(),
-            spans_probed(along).collect(),
-        );
-        let worst = |us: &[f64], vs: &[f64]| {
-            let mut worst = 0.0;
-            for &u in us {
-                for &v in vs {
-                    if self.frame.is_near(self.place([top, toe], u, v), AROUND) {
-                        let miss = (at(u, v) - z(u, v)).abs();
-                        if miss > worst || miss.is_nan() {
-                            worst = miss;
+        // Which of the directions a miss tells of.
+        let mut look = |us: &Stations, vs: &Stations, blamed: [bool; 2]| {
+            for (i, (u, in_u)) in us.all.iter().enumerate() {
+                for (j, (v, in_v)) in vs.all.iter().enumerate() {
+                    let place = self.place([top, toe], *u, *v);
+                    if !self.frame.is_near(place, AROUND) {
+                        continue;
+                    }
+                    let miss = (at(in_u, in_v) - z(*u, *v)).abs();
+                    if miss > misses.worst.0 || miss.is_nan() {
+                        misses.worst = (miss, place);
+                    }
+                    for (axis, index) in [(0, i), (1, j)] {
+                        if blamed[axis] {
+                            let span = &mut misses.spans[axis][index / PROBES.len()];
+                            *span = span.max(miss);
                         }
                     }
                 }
             }
-            worst
         };
-        let off_u = worst(&probes_u, &greville(along));
-        let off_v = worst(&greville(across), &probes_v);
-        let off = worst(&probes_u, &probes_v);
-        [off_u, off_v, off.max(off_u).max(off_v)]
+        look(&probes[0], &nodes[1], [true, false]);
+        look(&nodes[0], &probes[1], [false, true]);
+        // Between the nodes of both directions misses add up.
+        look(&probes[0], &probes[1], [false; 2]);
+        misses
     }
 }
 
+/// Parameters with the basis there.
+struct Stations {
+    all: Vec<(f64, Basis)>,
+}
+
+impl Stations {
+    fn new(knots: &KnotVector, parameters: Vec<f64>) -> Self {
+        let at = |t: f64| (t, knots.basis(t));
+        Self {
+            all: parameters.into_iter().map(at).collect(),
+        }
+    }
+
+    /// Of parameters that probe spans: the number of spans.
+    fn spans(&self) -> usize {
+        self.all.len() / PROBES.len()
+    }
+}
+
+/// How far a net is from its formula.
+struct Misses {
+    /// The most (m), and where in plan.
+    worst: (f64, DVec2),
+    /// By span in u and in v, what that direction is to blame for (m).
+    spans: [Vec<f64>; 2],
+}
+
+impl Misses {
+    /// The knots of a direction with those spans divided that miss by more than a share of the tolerance: all that
+    /// come near it, if none does. The error of a cubic spline falls with the fourth power of a span, with the third
+    /// across the knots of a horizon.
+    fn divided(
+        &self,
+        axis: usize,
+        knots: &KnotVector,
+        tolerance: f64,
+    ) -> Result<KnotVector, KnotError> {
+        let spans = &self.spans[axis];
+        let limit = (tolerance / 2.0).min(largest(spans) / 2.0);
+        let mut all = Vec::new();
+        let distinct = knots.distinct();
+        for (at, (knot, multiplicity)) in distinct.iter().enumerate() {
+            all.extend(std::iter::repeat_n(*knot, *multiplicity));
+            let (Some((next, _)), Some(miss)) = (distinct.get(at + 1), spans.get(at)) else {
+                continue;
+            };
+            if *miss > limit {
+                let pieces = (miss / (tolerance / 4.0))
+                    .cbrt()
+                    .ceil()
+                    .clamp(2.0, MOST_PIECES);
+                let mut piece = 1.0;
+                while piece < pieces {
+                    all.push(knot + (next - knot) * piece / pieces);
+                    piece += 1.0;
+                }
+            }
+        }
+        KnotVector::new(knots.degree(), all)
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
 /// Half as many spans again, if that is not too many.
+fn finer(spans: usize) -> Option<usize> {
+    (spans < MOST_SPANS).then(|| (3 * spans).div_ceil(2).min(MOST_SPANS))
+}
+
+/// The same, or why not.
 fn more(
     spans: usize,
     what: &'static str,
     [reached, tolerance]: [f64; 2],
 ) -> Result<usize, ClinoformError> {
-    if spans < MOST_SPANS {
-        Ok((3 * spans).div_ceil(2).min(MOST_SPANS))
-    } else {
-        Err(ClinoformError::Deviation {
-            what,
-            reached,
-            tolerance,
-            spans,
-        })
-    }
+    finer(spans).ok_or(ClinoformError::Deviation {
+        what,
+        reached,
+        tolerance,
+        spans,
+    })
 }

@@ -1,4 +1,8 @@
-#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test may stop at the first surprise"
+)]
 
 use super::super::frame::FrameError;
 use super::*;
@@ -178,6 +182,83 @@ fn sheets_are_within_a_millimetre_of_the_formula_for_every_exponent_toe_and_dire
     }
 }
 
+/// A unit between two bent horizons: heights at random on lattices of so many nodes along y.
+fn bent(seed: u32, nodes: i32, swing: f64) -> ClinoformUnit {
+    let grid = |middle: f64, salt: u32| {
+        // Weyl's sequence: any numbers do that are not in step with the lattice.
+        let height = |i: i32, j: i32| {
+            let step = f64::from(seed * 7 + salt + 1) * 0.618_033_988_749_895;
+            let part = (f64::from(i * 31 + j) * step + 0.37 * f64::from(i * j)).fract();
+            middle + swing * (2.0 * part - 1.0)
+        };
+        let rows: Vec<Vec<f64>> = (0..nodes)
+            .map(|j| (0..nodes / 2 + 2).map(|i| height(i, j)).collect())
+            .collect();
+        Horizon::grid([-10.0, 380.0], [-20.0, 700.0], &rows).unwrap()
+    };
+    ClinoformUnit::new(grid(-21.3, 0), grid(-1.3, 3), LOW, HIGH).unwrap()
+}
+
+#[test]
+fn sheets_follow_the_formula_between_horizons_of_any_wavelength_and_steepness() {
+    let mut finest = 0;
+    for (seed, (nodes, swing)) in [
+        (4, 3.0),
+        (6, 0.5),
+        (8, 3.0),
+        (11, 1.5),
+        (14, 0.3),
+        (17, 3.0),
+        (21, 1.0),
+        (24, 3.0),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let unit = bent(u32::try_from(seed).unwrap(), nodes, swing);
+        let azimuth = AZIMUTHS[seed % 6] + 7.0;
+        let frame = frame(azimuth);
+        let exponent = [2.0, 1.5, 2.7][seed % 3];
+        let design = ClinoformDesign {
+            length: [350.0, 120.0][seed % 2],
+            ..design(&frame, exponent, 0.3)
+        };
+        let sheet = Clinoform::new(&design, &frame, &unit).unwrap();
+        assert!(sheet.deviation() <= unit.tolerance());
+        let spans = [sheet.surface().knots_u(), sheet.surface().knots_v()]
+            .map(|knots| knots.distinct().len() - 1);
+        finest = finest.max(spans[0].max(spans[1]));
+        let (first, last) = sheet.surface().knots_u().domain();
+        let (mut worst, mut met): (f64, i32) = (0.0, 0);
+        for k in 0..40_000 {
+            let part = |ratio: f64| (f64::from(k) * ratio).fract();
+            let part = DVec2::new(part(0.754_877_666), part(0.569_840_291));
+            let place = LOW.truncate() + (HIGH - LOW).truncate() * part;
+            let (z, u) = formula(&design, &unit, azimuth, place);
+            if (first + 1e-6..last - 1e-6).contains(&u) {
+                let v = (frame.local(place).y + frame.reach()) / (2.0 * frame.reach());
+                worst = worst.max((sheet.surface().point(u, v).z - z).abs());
+                met += 1;
+            }
+        }
+        assert!(met > 5000, "{nodes} nodes: {met}");
+        // Measured at places of its own, and with the ellipses' millimetre in plan on slopes of up to 1 in 4.
+        assert!(worst < 1.3e-3, "{nodes} nodes, ±{swing} m: {worst}");
+    }
+    assert!(finest > 64, "no sheet needs more than even spans: {finest}");
+}
+
+#[test]
+fn horizons_that_are_noise_are_refused_with_the_place_where_they_are() {
+    let frame = frame(320.0);
+    let unit = bent(5, 90, 3.0);
+    let error = Clinoform::new(&design(&frame, 2.0, 0.3), &frame, &unit).unwrap_err();
+    let ClinoformError::TooBent { x, y, reached, .. } = error else {
+        panic!("{error}");
+    };
+    assert!(frame.is_near(DVec2::new(x, y), 0.06) && reached > unit.tolerance());
+}
+
 #[test]
 fn a_sheet_holds_what_is_above_it_to_a_nanometre_and_what_is_basinward_but_nothing_landward() {
     for azimuth in AZIMUTHS {
@@ -324,6 +405,31 @@ fn a_shoreline_starts_at_the_most_up_dip_corner_and_has_left_when_no_corner_is_b
     let local = frame(320.0).local(DVec2::new(100.0, 500.0));
     assert!(local.x > 0.0 && local.y < 100.0);
     assert!(frame(320.0).strike().x > 0.0 && frame(320.0).strike().y > 0.0);
+}
+
+#[test]
+fn a_nudged_set_lies_farther_basinwards_at_every_strike() {
+    let step = 1e-3;
+    for azimuth in AZIMUTHS {
+        let azimuth: f64 = azimuth + 3.0;
+        let [given, nudged] = [0.0, step]
+            .map(|by| ClinoformFrame::nudged(LOW, HIGH, azimuth.to_radians(), by).unwrap());
+        let shoreline = |frame: &ClinoformFrame, q: f64| {
+            let origin = frame.first_origin(SHORELINE);
+            frame.place(SHORELINE.at(origin, q), q)
+        };
+        for k in -20..=20 {
+            let q = 0.9 * given.reach() * f64::from(k) / 20.0;
+            // How far the nudged shoreline is from a place on the given one, at that place's strike.
+            let place = shoreline(&given, q);
+            let local = nudged.local(place);
+            let ahead = SHORELINE.at(nudged.first_origin(SHORELINE), local.y) - local.x;
+            assert!(
+                (0.4..1.7).contains(&(ahead / step)),
+                "{azimuth}°, {q}: {ahead}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -254,7 +254,11 @@ impl Set<'_> {
                 }
                 None => 0.0,
             };
-            let nodes = self.nodes(draws, &format!("{name}-{clinothem}.wander"));
+            let nodes = if range > 0.0 {
+                self.nodes(draws, &format!("{name}-{clinothem}.wander"))
+            } else {
+                self.even_nodes()
+            };
             let design = BoundaryDesign {
                 distance,
                 interfingering: range,
@@ -273,6 +277,19 @@ impl Set<'_> {
             });
         }
         Ok(made)
+    }
+
+    /// Of a line that does not turn: the same nodes for all, so that the same line in another set is the same spline, and not
+    /// one that crosses it again and again within the tolerance of both.
+    fn even_nodes(&self) -> Vec<[f64; 2]> {
+        let reach = self.frame.reach();
+        let legs = (1.0 / NODES[1]).ceil();
+        let mut nodes = vec![[-reach, 0.0]];
+        while (nodes.len() as f64) < legs {
+            nodes.push([reach * (2.0 * nodes.len() as f64 / legs - 1.0), 0.0]);
+        }
+        nodes.push([reach, 0.0]);
+        nodes
     }
 
     /// Where a boundary's line turns along strike: at random intervals, to one side and the other.
