@@ -232,22 +232,20 @@ fn polygon(topology: &Topology, face: &Face, own: &[(usize, bool)]) -> Vec<DVec2
     let mut points = Vec::new();
     for &(edge, backwards) in own {
         let edge = &topology.edges[edge];
-        let at: Box<dyn Fn(f64) -> DVec2> = match topology.sheets[face.sheet].plane {
-            Some([origin, normal, along]) => {
-                let curve = space_curve(&topology.curves[edge.curve.unwrap()]);
-                Box::new(move |t| {
-                    let p = curve.point(t) - origin;
-                    DVec2::new(p.dot(along), p.dot(normal.cross(along)))
-                })
-            }
-            None => {
-                let on = edge.on.iter().find(|on| on.sheet == face.sheet).unwrap();
-                let image = match on.reversed {
-                    Some(image) if backwards => image,
-                    _ => on.forward,
-                };
-                plane_curve(&topology.plane_curves[image])
-            }
+        let plane = topology.sheets[face.sheet].plane;
+        let at: Box<dyn Fn(f64) -> DVec2> = if let Some([origin, normal, along]) = plane {
+            let curve = space_curve(&topology.curves[edge.curve.unwrap()]);
+            Box::new(move |t| {
+                let p = curve.point(t) - origin;
+                DVec2::new(p.dot(along), p.dot(normal.cross(along)))
+            })
+        } else {
+            let on = edge.on.iter().find(|on| on.sheet == face.sheet).unwrap();
+            let image = match on.reversed {
+                Some(image) if backwards => image,
+                _ => on.forward,
+            };
+            plane_curve(&topology.plane_curves[image])
         };
         let [from, to] = if backwards {
             [edge.range[1], edge.range[0]]
