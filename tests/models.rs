@@ -69,7 +69,9 @@ impl Built {
             .checks
             .iter()
             .filter(|check| {
-                check.name.contains("beside faces") || check.name.contains("not in its solids")
+                ["beside faces", "not in its solids", "points along lines"]
+                    .iter()
+                    .any(|name| check.name.contains(name))
             })
             .map(|check| {
                 let points = check.detail.split(' ').next().unwrap();

@@ -42,7 +42,7 @@ impl Holders {
         };
         // That is known already, so it is asked first.
         let holders = (1..self.bodies.len()).filter(|volume| holds(*volume));
-        inside[0].then(|| rules.owner_since(BACKGROUND, holders, |_| true))
+        inside[0].then(|| rules.owner_since(BACKGROUND, holders, holds))
     }
 }
 

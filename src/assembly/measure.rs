@@ -64,7 +64,11 @@ impl Measured {
     /// Measures solids that the kernel made, by the kernel's integrals.
     pub(super) fn of_solids(solids: &Solids, plan: &AssemblyPlan) -> Result<Self, BridgeError> {
         let middle = (plan.low() + plan.high()) / 2.0;
-        let integrals = face_integrals(solids, EPS, middle.to_array(), Threads::All)?;
+        let mut integrals = face_integrals(solids, EPS, middle.to_array(), Threads::All)?;
+        for face in &mut integrals {
+            face.area_error = face.area_error.max(EPS * face.area);
+            face.flux_error = face.flux_error.max(EPS * face.flux.abs());
+        }
         let boxes: Vec<(DVec3, DVec3)> = solid_boxes(solids, Threads::All)?
             .iter()
             .map(|one| (DVec3::from_array(one.min), DVec3::from_array(one.max)))

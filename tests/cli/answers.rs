@@ -218,3 +218,19 @@ fn the_same_model_gives_the_same_bytes_on_one_thread_and_on_many() {
     let report: Value = serde_json::from_slice(&read("one", "report.json")).unwrap();
     assert!(report["assembly"]["crossing_pairs"].as_u64() > Some(0));
 }
+
+#[test]
+fn the_general_fuse_alone_builds_a_model_with_a_horizon() {
+    let text = "name = \"One\"\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-30, 0]\nfacies = \"mud\"\n[facies.mud]\n[facies.sand]\n\
+        [[feature]]\nid = \"unit\"\nkind = \"horizon\"\nfacies = \"sand\"\n\
+        surface = { dipping = { through = [200, 150, -12], dip_deg = 2, azimuth_deg = 30 } }\n";
+    let sandbox = Sandbox::new(text);
+    let report = sandbox.json("build model.toml --engine occt --formats none -o out --json");
+    let text = report.to_string();
+    assert!(text.contains("\"engine\":\"occt\""), "{text}");
+    // The plane passes through the middle of the domain's plan.
+    let volumes = report["volumes"].as_array().unwrap();
+    let unit = volumes.iter().find(|one| one["name"] == "unit").unwrap();
+    let size = unit["volume_m3"].as_f64().unwrap();
+    assert!((size / (400.0 * 300.0 * 12.0) - 1.0).abs() < 1e-6, "{size}");
+}

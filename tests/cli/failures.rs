@@ -264,12 +264,3 @@ fn a_build_that_fails_keeps_the_results_of_the_one_before() {
     sandbox.answer("build model.toml --set feature.channel.count=1 -o out");
     sandbox.refusal("build model.toml --engine occt --time-limit 1 -o out", 2);
 }
-
-#[test]
-fn a_model_with_horizons_is_refused_by_the_general_fuse_alone_with_what_to_do() {
-    let sandbox = Sandbox::of("strata/undulating.toml");
-    let errors = sandbox.refusal("build model.toml --engine occt -o out", 2);
-    for words in ["closed bodies only", "--engine auto"] {
-        assert!(errors.contains(words), "{errors}");
-    }
-}
