@@ -155,7 +155,7 @@ fn basinward(rows: &[Vec<nurbs::Surface>], frame: &ClinoformFrame, margin: f64) 
         upper = lower;
     }
     let floor = upper;
-    build.close(frame, far, [&roof, &floor], sides);
+    build.close(frame, far, [&roof, &floor], &sides);
     build.topology
 }
 
@@ -339,7 +339,7 @@ impl Builder {
         frame: &ClinoformFrame,
         far: f64,
         borders: [&Border; 2],
-        sides: [Vec<usize>; 2],
+        sides: &[Vec<usize>; 2],
     ) {
         let near = borders.map(Border::ends);
         let beyond = near.map(|ends| {
