@@ -289,6 +289,7 @@ const SHOREFACE_EDITS: &[Edit] = &[
     ("azimuth_deg = 320", "", &["feature \"lower-set\" has no `azimuth_deg`", "azimuth_deg = 320"]),
     ("azimuth_deg = 320", "azimuth_deg = ▸3200", &["the azimuth_deg of feature \"lower-set\" is 3200"]),
     ("azimuth_deg = 320", "▸direction = 320", &["unknown key `direction`", "did you mean `azimuth_deg`?"]),
+    ("shoreline = [3000, { uniform = [5000, 6000] }]", "turns = ▸[120, 60]", &["the turns of feature \"lower-set\" may be at least 120 m and at most 60 m apart", "[60, 120]"]),
     ("shoreline = [3000, { uniform = [5000, 6000] }]", "shoreline = ▸3000", &["expected a list of two for the shoreline of feature \"lower-set\", found the number 3000", "[3000, 6000]"]),
     ("shoreline = [3000, ", "shoreline = [▸-3000, ", &["the semi-extent along dip of the shoreline of feature \"lower-set\" is -3000"]),
     ("length = { uniform = [150, 900] }", "", &["feature \"lower-set\" has no `length`"]),

@@ -222,6 +222,10 @@ pub(crate) struct ClinoformsFile {
     #[schemars(schema_with = "schema::interfingering")]
     #[serde(default)]
     pub(crate) interfingering: Option<Field<String>>,
+    /// Least and greatest distance along strike from one turn of the boundaries between belts to the next, in metres; a thirteenth and
+    /// two thirteenths of the strikes that sheets run over if left out.
+    #[schemars(with = "Option<[Quantity; 2]>")]
+    pub(crate) turns: Option<Field<Any>>,
     /// Facies belts of each clinothem, from landward to basinward; without them a clinothem is one volume.
     #[schemars(with = "Option<Vec<BeltFile>>", length(min = 1))]
     pub(crate) belts: Option<Field<Any>>,

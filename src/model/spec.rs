@@ -285,6 +285,8 @@ pub struct ClinoformsSpec {
     pub belts: Vec<Belt>,
     /// The shape of the boundaries between belts.
     pub interfingering: Interfingering,
+    /// Least and greatest distance along strike from one turn of these boundaries to the next; by the domain if absent.
+    pub turns: Option<[Quantity; 2]>,
 }
 
 /// What bounds a unit.

@@ -171,6 +171,12 @@ fn world_coordinates_change_no_volume() {
 fn a_right_model_is_proven_at_every_level() {
     for level in ["fast", "full"] {
         let text = text("real-data", "full-proof-false-alarm");
+        // With the distances between turns that it was made with.
+        let set = "feature.set.turns=[60, 120]";
+        let report = Report::of(&text, &["--proof", level, "--set", set]);
+        let size = report.size("set-0/b2");
+        // That value is of boundaries to a millimetre; these are to a twenty-thousandth of the unit's thickness, over 20 km.
+        assert!((size / 1.226_067e9 - 1.0).abs() < 1e-4, "{size}");
         let report = Report::of(&text, &["--proof", level]);
         // By the kernel's Gauss-Kronrod integrals, which agree with ours to 1e-8.
         let miss = report.size("set-0/b2") / 1.220_568_57e9 - 1.0;

@@ -115,7 +115,11 @@ fn changed_feature(feature: &mut Table, way: Way) {
         Some("horizon") => within(feature, "surface", |table| surface(table, way)),
         _ => {
             azimuth(feature, way);
-            lengths(feature, &["length", "spacing", "first", "shoreline"], way);
+            lengths(
+                feature,
+                &["length", "spacing", "first", "shoreline", "turns"],
+                way,
+            );
             let belts = feature.get_mut("belts").and_then(Value::as_array_mut);
             for belt in belts.into_iter().flatten().filter_map(Value::as_table_mut) {
                 lengths(belt, &["width", "interfingering"], way);

@@ -77,6 +77,7 @@ impl Checker<'_> {
         let sheets = self.sheets(file.sheets, draft);
         let belts = self.belts(file.belts, draft, family);
         let interfingering = self.interfingering(file.interfingering);
+        let turns = self.turns(file.turns, draft);
         unit?;
         Some(ClinoformsSpec {
             top: top?,
@@ -90,6 +91,7 @@ impl Checker<'_> {
             sheets: sheets.ok()?,
             belts: belts?,
             interfingering: interfingering?,
+            turns: turns.ok()?,
         })
     }
 
@@ -209,6 +211,37 @@ impl Checker<'_> {
             remedy: "write the ellipse's semi-extents [along dip, along strike], as [3000, 6000]",
         };
         extents.read(&self.reader, node)
+    }
+
+    fn turns(
+        &self,
+        field: Option<Field<Any>>,
+        draft: &Draft,
+    ) -> Result<Option<[Quantity; 2]>, Reported> {
+        let Some(field) = field else { return Ok(None) };
+        let (node, Any) = field.good().ok_or(Reported)?;
+        let distances = Tuple {
+            what: format!("the turns of {}", draft.name),
+            names: ["least distance", "greatest distance"],
+            limits: POSITIVE,
+            remedy: "write the distances between turns [least, greatest], as [60, 120]",
+        };
+        let read = distances.read(&self.reader, node).ok_or(Reported)?;
+        let [least, most] = &read;
+        if least.support().1 > most.support().0 {
+            self.reader.wrong(
+                node,
+                format!(
+                    "the turns of {} may be at least {} m and at most {} m apart",
+                    draft.name,
+                    least.support().1,
+                    most.support().0
+                ),
+                "write the distances between turns [least, greatest], as [60, 120]",
+            );
+            return Err(Reported);
+        }
+        Ok(Some(read))
     }
 
     fn quantity_or_none(

@@ -23,6 +23,9 @@ const TOE: f64 = 0.3;
 /// 120 m in the case study of \[J19\].
 const NODES: [f64; 2] = [0.0767, 0.1534];
 
+/// How often the boundaries of belts turn at most.
+const MOST_TURNS: f64 = 1000.0;
+
 /// A side with what was drawn for it.
 #[derive(Clone, Debug)]
 pub(in crate::model) struct DrawnSide {
@@ -137,6 +140,8 @@ pub(in crate::model) fn clinoforms(
             strike: draws.quantity(&spec.shoreline[1], "shoreline.strike")?,
         };
         let exponent = draws.quantity(&spec.exponent, "exponent")?;
+        let frame = ClinoformFrame::nudged(low, high, azimuth.to_radians(), nudge).map_err(wrong)?;
+        let turns = turns(spec, &frame, draws)?;
         let level = base.level().is_some() && top.level().is_some();
         let toe = match &spec.toe {
             Some(toe) => draws.quantity(toe, "toe")?,
@@ -152,7 +157,8 @@ pub(in crate::model) fn clinoforms(
         }
         let set = Set {
             spec,
-            frame: ClinoformFrame::nudged(low, high, azimuth.to_radians(), nudge).map_err(wrong)?,
+            frame,
+            turns,
             unit: ClinoformUnit::new(base.clone(), top.clone(), low, high).map_err(wrong)?,
             shoreline,
             exponent,
@@ -163,10 +169,36 @@ pub(in crate::model) fn clinoforms(
     .map(|made| made.0)
 }
 
+/// Least and greatest distance along strike between turns of the boundaries of belts (m).
+fn turns(
+    spec: &ClinoformsSpec,
+    frame: &ClinoformFrame,
+    draws: &mut Draws<'_>,
+) -> Result<[f64; 2], Reason> {
+    let strikes = 2.0 * frame.reach();
+    let Some([least, most]) = &spec.turns else {
+        return Ok(NODES.map(|part| strikes * part));
+    };
+    let turns = [
+        draws.quantity(least, "turns.least")?,
+        draws.quantity(most, "turns.most")?,
+    ];
+    if strikes > MOST_TURNS * turns[0] {
+        let message = format!(
+            "with turns {} m apart the boundaries of belts turn more than {MOST_TURNS} times: give a greater distance",
+            turns[0]
+        );
+        return Err(("too many turns", message));
+    }
+    Ok(turns)
+}
+
 /// A clinoform set while it is drawn.
 struct Set<'a> {
     spec: &'a ClinoformsSpec,
     frame: ClinoformFrame,
+    /// Least and greatest distance along strike between turns of the boundaries of belts (m).
+    turns: [f64; 2],
     unit: ClinoformUnit,
     shoreline: Shoreline,
     exponent: f64,
@@ -296,12 +328,12 @@ impl Set<'_> {
     fn nodes(&self, draws: &Draws<'_>, parameter: &str) -> Vec<[f64; 2]> {
         let mut stream = draws.stream(parameter);
         let reach = self.frame.reach();
-        let scale = 2.0 * reach;
-        let mut q = -reach - scale * NODES[1] * stream.unit();
+        let [least, most] = self.turns;
+        let mut q = -reach - most * stream.unit();
         let mut side = if stream.unit() < 0.5 { -0.5 } else { 0.5 };
         let mut nodes = vec![[q, side]];
         while q < reach {
-            q += scale * (NODES[0] + (NODES[1] - NODES[0]) * stream.unit());
+            q += least + (most - least) * stream.unit();
             side = -side;
             let part = match self.spec.interfingering {
                 Interfingering::Smooth => 2.0 * stream.unit() - 1.0,

@@ -63,9 +63,15 @@ fn draw(model: &Model, spec: &ClinoformsSpec) -> Result<DrawnSet, Rejected> {
 fn nodes(model: &Model) -> (Vec<Vec<[f64; 2]>>, f64) {
     let (low, high) = corners(&model.domain);
     let [base, top] = model.domain.z.map(|z| Horizon::flat(z).unwrap());
+    let frame = ClinoformFrame::new(low, high, 90.0_f64.to_radians()).unwrap();
+    let mut draws = Draws {
+        key: KEY,
+        drawn: Vec::new(),
+    };
     let set = Set {
         spec: spec(model),
-        frame: ClinoformFrame::new(low, high, 90.0_f64.to_radians()).unwrap(),
+        turns: turns(spec(model), &frame, &mut draws).unwrap(),
+        frame,
         unit: ClinoformUnit::new(base, top, low, high).unwrap(),
         shoreline: Shoreline {
             dip: 3000.0,
@@ -73,10 +79,6 @@ fn nodes(model: &Model) -> (Vec<Vec<[f64; 2]>>, f64) {
         },
         exponent: 2.0,
         toe: 0.0,
-    };
-    let draws = Draws {
-        key: KEY,
-        drawn: Vec::new(),
     };
     let all = (0..200).map(|k| set.nodes(&draws, &format!("near-{k}.wander")));
     (all.collect(), set.frame.reach())
@@ -190,4 +192,20 @@ fn a_set_that_does_not_prograde_or_has_more_than_500_sheets_is_refused() {
     let count = draw(&model, &fine).unwrap().sheets.len();
     // Those whose shoreline has not left the domain: up to 1000 m at the corners, 50 m from the first.
     assert!((430..435).contains(&count), "{count}");
+}
+
+#[test]
+fn a_boundary_turns_as_often_as_the_model_says() {
+    let (all, reach) = nodes(&model(2000.0, "turns = [60, 120]\n"));
+    for nodes in &all {
+        for pair in nodes.windows(2) {
+            assert!((60.0 - 1e-9..120.0 + 1e-9).contains(&(pair[1][0] - pair[0][0])));
+        }
+        assert!(nodes.len() as f64 > 2.0 * reach / 120.0);
+    }
+    let model = model(2000.0, "turns = [1, 2]\n");
+    let Err(rejected) = draw(&model, spec(&model)) else {
+        panic!("2200 turns")
+    };
+    assert!(rejected.message.contains("give a greater distance"));
 }
