@@ -29,7 +29,7 @@ pub struct Child {
 }
 
 /// What the names of its folders for results begin with.
-const FOLDERS: &str = "clinothem-";
+const FOLDERS: &str = "clinothem-fuse-";
 
 /// Removes what runs that were killed have left among the temporary files.
 pub fn clear_abandoned() {
