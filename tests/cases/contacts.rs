@@ -194,13 +194,9 @@ fn basinward(apex: f64) -> f64 {
     (0..strips).map(strip).sum()
 }
 
-#[test]
-fn clinoforms_may_prograde_along_an_axis() {
-    let beyond: Vec<f64> = [100.0, 300.0, 500.0, 700.0, 900.0]
-        .into_iter()
-        .map(basinward)
-        .chain([0.0])
-        .collect();
+/// Five clinoforms whose shorelines have their apexes there, of which the last may be hardly in the domain.
+fn assert_clinothems(report: &Report, apexes: [f64; 5]) {
+    let beyond: Vec<f64> = apexes.into_iter().map(basinward).chain([0.0]).collect();
     let names = ["s-1", "s-2", "s-3", "s-4", "s-5"];
     let mut right = vec![("background", BLOCK - beyond[0])];
     right.extend(
@@ -210,5 +206,18 @@ fn clinoforms_may_prograde_along_an_axis() {
             .map(|(i, name)| (*name, beyond[i] - beyond[i + 1])),
     );
     // A sheet is within a millimetre of its formula.
-    Report::case("contacts", "clinoforms-along-x").assert_sizes(&right, 1e-5);
+    report.assert_sizes(&right, 1e-5);
+}
+
+#[test]
+fn clinoforms_may_prograde_along_an_axis() {
+    let report = Report::case("contacts", "clinoforms-along-x");
+    assert_clinothems(&report, [100.0, 300.0, 500.0, 700.0, 900.0]);
+}
+
+#[test]
+fn a_toe_and_a_shoreline_may_touch_a_wall() {
+    let text = text("contacts", "clinoforms-along-x");
+    let report = Report::of(&text, &["--set", "feature.s.first=200"]);
+    assert_clinothems(&report, [200.0, 400.0, 600.0, 800.0, 1000.0]);
 }

@@ -81,7 +81,11 @@ impl Listing<'_> {
         let [base, top] = self.unit(feature, spec, parent.map(|parent| parent.0))?;
         let domain = &self.model.domain;
         self.sets += 1;
-        let nudge = f64::from(self.sets) * self.step;
+        // Landwards: of a toe that touched a wall nothing is left beyond it, where the sheet would be flatter than numbers tell.
+        // The oldest set moves farthest: each younger one lies basinward of where it would lie by the one before.
+        let is_set = |feature: &&Feature| matches!(feature.kind, FeatureKind::Clinoforms(_));
+        let sets = self.model.features.iter().filter(is_set).count();
+        let nudge = (f64::from(self.sets) - sets as f64 - 1.0) * self.step;
         let draw =
             |key: draws::Key<'_>| strata::clinoforms(spec, domain, [&base, &top], nudge, key);
         let (set, reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
