@@ -192,6 +192,20 @@ fn a_trajectory_that_crosses_itself_is_refused() {
 }
 
 #[test]
+fn a_corner_that_is_too_sharp_is_called_a_corner() {
+    let points = [(0.0, 0.0), (100.0, 0.0), (140.0, 95.0)].map(|(x, y)| DVec2::new(x, y));
+    let straight = crate::nurbs::interpolate::Parametrization::ChordLength;
+    let trajectory = Trajectory::through(&points, 1, straight).unwrap();
+    let error = design(120.0, 4.0).build(&trajectory).unwrap_err();
+    assert_eq!(error.reason(), "bend tighter than the half-width");
+    let words = error.to_string();
+    assert!(
+        words.contains("the corner near") && words.contains("round the corner"),
+        "{words}"
+    );
+}
+
+#[test]
 fn a_raised_trough_is_the_same_below_its_old_top() {
     let mut overhanging = design(50.0, 5.0);
     overhanging.right_angle = Some(Profile::Constant(120_f64.to_radians()));

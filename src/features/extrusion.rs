@@ -28,21 +28,37 @@ pub struct PlacedSection {
     pub tolerance: f64,
 }
 
+/// A bend, or a corner, that is too sharp.
+fn bend(s: f64, radius: f64, reach: f64) -> String {
+    if radius.is_finite() {
+        format!(
+            "the bend {s:.0} m along the trajectory has a radius of {radius:.1} m, but the section reaches {reach:.1} m"
+        )
+    } else {
+        format!(
+            "the corner near {s:.0} m along the trajectory is too sharp for a section that reaches {reach:.1} m"
+        )
+    }
+}
+
 /// Why a template makes no surface along a trajectory.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtrusionError<E: std::error::Error> {
     /// The template has no section at a place.
     #[error("{1:.0} m along the trajectory: {0}")]
     Section(#[source] E, f64),
-    /// The half-width on the inner side of a bend exceeds its radius.
+    /// The half-width on the inner side of a bend exceeds its radius, or a corner is too sharp for it.
     #[error(
-        "the bend {s:.0} m along the trajectory has a radius of {radius:.1} m, but the section reaches {reach:.1} m \
-         towards its inside: the surface would fold over itself; widen the bend or narrow the section"
+        "{} towards its inside: the surface would fold over itself; {}",
+        bend(*s, *radius, *reach),
+        if radius.is_finite() { "widen the bend or narrow the section" } else {
+            "round the corner (a trajectory through points has corners with `degree = 1` only) or narrow the section"
+        }
     )]
     Fold {
         /// Arc length of the bend (m).
         s: f64,
-        /// Radius of curvature (m).
+        /// Radius of curvature (m); infinite beside a corner.
         radius: f64,
         /// Half-width towards the inside (m).
         reach: f64,
