@@ -62,7 +62,7 @@ pub(crate) struct DomainFile {
     /// A top within `z`: above it the model has nothing.
     #[schemars(with = "Option<HorizonSurface>")]
     pub(crate) top: Option<Field<Any>>,
-    /// A bed thinner than this, in metres, at the nodes of its horizons' grids is absent there; a ten-millionth of the domain's diagonal if left out.
+    /// A bed thinner than this, in metres, at the nodes of its horizons' grids is absent there; a ten-billionth of the domain's diagonal if left out.
     #[schemars(range(min = 0))]
     pub(crate) least_thickness: Option<Field<f64>>,
     /// The facies of the background.

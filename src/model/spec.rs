@@ -50,7 +50,7 @@ pub struct Domain {
 
 impl Domain {
     /// [`Self::least_thickness`] if none is given, as a fraction of the domain's diagonal: far below any geology.
-    pub const LEAST_THICKNESS: f64 = 1e-7;
+    pub const LEAST_THICKNESS: f64 = 1e-10;
 
     /// Extents in x, y and z.
     pub fn size(&self) -> [f64; 3] {
