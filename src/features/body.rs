@@ -95,6 +95,13 @@ impl Body {
         }
     }
 
+    /// Its bounds bit by bit: bodies that are the same have the same.
+    pub fn bounds_bits(&self) -> [u64; 6] {
+        let (low, high) = self.bounds();
+        let [a, b] = [low, high].map(|corner| corner.to_array().map(f64::to_bits));
+        [a[0], a[1], a[2], b[0], b[1], b[2]]
+    }
+
     /// The elevation of its top, if it has one that is level to within a tolerance (m).
     pub fn level_top(&self, tolerance: f64) -> Option<f64> {
         match self {

@@ -211,10 +211,11 @@ impl AssemblyPlan {
                 body = Cow::Owned(Body::Side(Side::Everywhere.into()));
             }
         }
-        let (low, high) = body.bounds();
-        if matches!(&*body, Body::Side(side) if matches!(**side, Side::Horizon(_)))
-            && high.z <= self.low().z
-        {
+        let heights = match &*body {
+            Body::Side(side) => side.heights(),
+            Body::Trough(_) | Body::Ellipsoid(_) => None,
+        };
+        if heights.is_some_and(|[_, highest]| highest <= self.low().z) {
             let name = &self.names[instance.volume];
             self.note(format!(
                 "{name} lies below the domain: all of it is above it"
@@ -224,6 +225,7 @@ impl AssemblyPlan {
                 body: Cow::Owned(Body::Side(Side::Everywhere.into())),
             });
         }
+        let (low, high) = body.bounds();
         if !(low.cmplt(self.high()).all() && high.cmpgt(self.low()).all()) {
             let name = &self.names[instance.volume];
             self.note(format!("{name} lies outside the domain"));
@@ -289,11 +291,10 @@ impl AssemblyPlan {
             let meets = |j: usize| j != i && boxes_meet_in_plan(&bounds[i], &bounds[j]);
             let is_shared = of_bodies.near(level, same).any(meets);
             let runs_along = |one: &Reaching<'_>| match &*one.body {
-                Body::Side(side) if matches!(**side, Side::Horizon(_)) => {
-                    let (low, high) = side.bounds();
-                    low.z - same <= level && level <= high.z + same
-                }
-                _ => false,
+                Body::Side(side) => side.heights().is_some_and(|[lowest, highest]| {
+                    lowest - same <= level && level <= highest + same
+                }),
+                Body::Trough(_) | Body::Ellipsoid(_) => false,
             };
             if by_age && !is_shared && level < self.high().z && bodies.iter().any(runs_along) {
                 tops[i] = Top::UnderLid(level);
@@ -378,12 +379,7 @@ impl Sorted {
 
 /// The box of a closed body, bit by bit.
 fn box_of(body: &Body) -> Option<[u64; 6]> {
-    if matches!(body, Body::Side(_)) {
-        return None;
-    }
-    let (low, high) = body.bounds();
-    let [a, b] = [low, high].map(|corner| corner.to_array().map(f64::to_bits));
-    Some([a[0], a[1], a[2], b[0], b[1], b[2]])
+    (!matches!(body, Body::Side(_))).then(|| body.bounds_bits())
 }
 
 fn boxes_meet_in_plan(a: &(DVec3, DVec3), b: &(DVec3, DVec3)) -> bool {

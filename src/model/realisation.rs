@@ -264,10 +264,7 @@ fn repeated(instances: &[Instance]) -> Vec<Option<usize>> {
     let mut by_box: BTreeMap<[u64; 6], Vec<usize>> = BTreeMap::new();
     let mut first = Vec::with_capacity(instances.len());
     for (at, one) in instances.iter().enumerate() {
-        let (low, high) = one.body.bounds();
-        let [a, b, c] = low.to_array().map(f64::to_bits);
-        let [d, e, f] = high.to_array().map(f64::to_bits);
-        let alike = by_box.entry([a, b, c, d, e, f]).or_default();
+        let alike = by_box.entry(one.body.bounds_bits()).or_default();
         let same = alike
             .iter()
             .copied()

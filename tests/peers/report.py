@@ -260,7 +260,7 @@ def text(entries, args, command):
         "called with `glue=None`: its default is for shapes that only touch. build123d has no general fuse that keeps cells,",
         "so its block is split by one shell or side after another.",
         "",
-        "Where there are open sheets, only what takes them is compared. Our own general fuse and cuts want closed bodies.",
+        "Where there are open sheets, only what takes them is compared. Cuts want closed bodies; our own general fuse, which closes them itself, is left out.",
         "",
     ]
     for model in models:
