@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::view::{Box3, Camera, Projection};
+use super::scene::{Box3, Camera, Projection};
 
 /// A camera placed before a domain.
 #[derive(Debug, Clone)]

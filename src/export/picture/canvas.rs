@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::{
     Rgb,
-    font::{FAMILY, Style, Weight},
+    style::{FAMILY, Style, Weight},
 };
 
 /// Text and axes.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 
-use super::view::{Owner, Part};
+use super::scene::{Owner, Part};
 use crate::features::extent::Extent;
 use crate::nurbs::Surface;
 

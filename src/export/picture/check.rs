@@ -2,7 +2,7 @@
 
 use super::{
     LARGEST_SIDE, MOST_PIXELS, PictureError, SMALLEST_SIDE, Swatch, Volume,
-    view::{Box3, Cut, Part, Projection, Scene},
+    scene::{Box3, Cut, Part, Projection, Scene},
 };
 
 /// `Ok` when `value` is finite.

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use super::{
     PictureError,
     camera::Eye,
-    solid::{HalfSpace, Vertex, clipped, without},
-    view::{Box3, Owner},
+    halfspace::{HalfSpace, Vertex, clipped, without},
+    scene::{Box3, Owner},
 };
 
 /// Nobody's: the face is open here.

@@ -7,11 +7,7 @@ use resvg::{
     usvg::{Node, Options, Tree, fontdb},
 };
 
-use super::{PictureError, canvas};
-
-/// The family that PNGs use, with what a browser may use instead.
-pub(super) const FAMILY: &str =
-    "'Noto Sans', 'DejaVu Sans', 'Segoe UI', Helvetica, Arial, sans-serif";
+use super::{PictureError, canvas, style::Style};
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     let mut fonts = fontdb::Database::new();
@@ -21,33 +17,6 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     fonts.set_sans_serif_family("Noto Sans");
     Arc::new(fonts)
 });
-
-/// How a text looks: its size in pixels of the drawing, and whether it is bold.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Style {
-    pub(super) size: f64,
-    pub(super) weight: Weight,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Weight {
-    Regular,
-    Bold,
-}
-
-pub(super) const fn regular(size: f64) -> Style {
-    Style {
-        size,
-        weight: Weight::Regular,
-    }
-}
-
-pub(super) const fn bold(size: f64) -> Style {
-    Style {
-        size,
-        weight: Weight::Bold,
-    }
-}
 
 fn parse(svg: &str) -> Result<Tree, PictureError> {
     let options = Options {
@@ -139,6 +108,7 @@ pub(super) fn png(pixels: &Pixmap) -> Result<Vec<u8>, PictureError> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests")]
+    use super::super::style::{bold, regular};
     use super::*;
 
     #[test]

@@ -6,11 +6,11 @@ use super::{
     PictureError, Rgb,
     camera::Eye,
     canvas::{Anchor, Canvas, GREY, INK, Text, pen},
-    face,
-    font::{self, Style, bold, regular},
-    solid::HalfSpace,
+    face, font,
+    halfspace::HalfSpace,
+    scene::Box3,
+    style::{Style, bold, regular},
     ticks::Ticks,
-    view::Box3,
 };
 
 const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -336,7 +336,7 @@ pub(super) fn north_arrow(canvas: &mut Canvas, middle: DVec2, eye: &Eye) {
 mod tests {
     #![allow(clippy::unwrap_used, clippy::panic, reason = "tests")]
     use super::*;
-    use crate::export::picture::view::{Camera, Projection};
+    use crate::export::picture::scene::{Camera, Projection};
 
     const DOMAIN: Box3 = Box3 {
         low: DVec3::new(431_000.0, 6_520_000.0, -2460.0),

@@ -5,7 +5,8 @@ use glam::DVec2;
 use super::{
     PictureError, Swatch,
     canvas::{Canvas, GREY, Text, pen},
-    font::{self, Style, regular},
+    font,
+    style::{Style, regular},
 };
 
 /// Size of a swatch, and the gap to its name, for text of one pixel.

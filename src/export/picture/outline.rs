@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::section::LabelRaster;
+use super::figure::LabelRaster;
 
 /// How far, in cells, a simplified chain may leave the smoothed chain.
 const TOLERANCE: f64 = 0.3;

@@ -5,9 +5,9 @@ use glam::DVec2;
 use super::{
     PictureError, Rgb, byte,
     canvas::{Anchor, Canvas, GREY, INK, Text, pen},
+    figure::{Extent, Trace},
     font,
-    font::{bold, regular},
-    section::{Extent, Trace},
+    style::{Style, bold, regular},
     ticks::{Ticks, number},
 };
 
@@ -150,7 +150,7 @@ pub(super) fn axes(
     plot: &Plot,
     titles: [&str; 2],
 ) -> Result<f64, PictureError> {
-    const STYLE: font::Style = regular(13.0);
+    const STYLE: Style = regular(13.0);
     let floor = plot.low.y + plot.size.y;
     canvas.raw(r#"<g id="axes">"#);
     let mut most = (plot.size.x / 70.0).max(1.0);

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{
     Rgb,
     canvas::{Anchor, Canvas, INK, Text, pen},
-    font::regular,
+    style::regular,
     ticks::round_down,
 };
 

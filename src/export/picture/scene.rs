@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Swatch, Volume, byte, solid::HalfSpace};
+use super::{Swatch, Volume, byte, halfspace::HalfSpace};
 
 /// Who owns a point: an index into [`Scene::volumes`], or `None` where nothing shall be shown. Asked from several
 /// threads.
@@ -125,6 +125,39 @@ pub enum Cut {
     },
 }
 
+impl Cut {
+    /// What it removes, as the common part of half-spaces. Sides of the removed box on or beyond the domain's are left out.
+    pub(super) fn half_spaces(&self, domain: &Box3) -> Vec<HalfSpace> {
+        match *self {
+            Self::Plane { point, removes } => {
+                let normal = -removes.normalize_or_zero();
+                vec![HalfSpace {
+                    normal,
+                    offset: normal.dot(point),
+                }]
+            }
+            Self::Corner { low, high } => {
+                let mut sides = Vec::new();
+                for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                    if high.dot(axis) < domain.high.dot(axis) {
+                        sides.push(HalfSpace {
+                            normal: axis,
+                            offset: high.dot(axis),
+                        });
+                    }
+                    if low.dot(axis) > domain.low.dot(axis) {
+                        sides.push(HalfSpace {
+                            normal: -axis,
+                            offset: -low.dot(axis),
+                        });
+                    }
+                }
+                sides
+            }
+        }
+    }
+}
+
 /// A view to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -183,6 +216,97 @@ impl Scene {
             format!("{viewpoint} · no vertical exaggeration")
         } else {
             format!("{viewpoint} · vertical exaggeration {vertical_exaggeration}×")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::halfspace::{Vertex, without};
+    use super::*;
+    use proptest::prelude::*;
+
+    const DOMAIN: Box3 = Box3 {
+        low: DVec3::ZERO,
+        high: DVec3::ONE,
+    };
+
+    fn area(polygon: &[Vertex]) -> f64 {
+        (1..polygon.len().saturating_sub(1))
+            .map(|i| {
+                let [a, b, c] = [polygon[0].at, polygon[i].at, polygon[i + 1].at];
+                (b - a).cross(c - a).length() / 2.0
+            })
+            .sum()
+    }
+
+    fn vertex(at: [f64; 3]) -> Vertex {
+        Vertex {
+            at: DVec3::from(at),
+            normal: DVec3::Z,
+        }
+    }
+
+    fn inside(p: DVec3, removed: &[HalfSpace]) -> bool {
+        removed.iter().all(|side| side.height(p) < -1e-9)
+    }
+
+    #[test]
+    fn a_square_without_a_quarter_has_three_quarters_of_its_area() {
+        let square = [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].map(|[x, y]| vertex([x, y, 1.0]));
+        let cut = Cut::Corner {
+            low: DVec3::new(0.5, 0.5, -1.0),
+            high: DVec3::splat(2.0),
+        };
+        let pieces = without(square.to_vec(), &cut.half_spaces(&DOMAIN));
+        let sum: f64 = pieces.iter().map(|piece| area(piece)).sum();
+        assert!((sum - 0.75).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_plane_removes_the_side_it_points_to() {
+        let cut = Cut::Plane {
+            point: DVec3::splat(0.5),
+            removes: DVec3::new(3.0, 0.0, 0.0),
+        };
+        let removed = cut.half_spaces(&DOMAIN);
+        let square = [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].map(|[x, y]| vertex([x, y, 1.0]));
+        let pieces = without(square.to_vec(), &removed);
+        assert_eq!(pieces.len(), 1);
+        assert!(pieces[0].iter().all(|vertex| vertex.at.x <= 0.5));
+        assert!((area(&pieces[0]) - 0.5).abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn pieces_are_what_lies_outside_the_removed_box(
+            corners in prop::array::uniform3(prop::array::uniform3(0.0..1.0_f64)),
+            low in prop::array::uniform3(0.05..0.5_f64),
+            weights in prop::collection::vec(prop::array::uniform3(0.01..1.0_f64), 40),
+        ) {
+            let triangle = corners.map(vertex);
+            let cut = Cut::Corner { low: DVec3::from(low), high: DVec3::new(0.8, 2.0, 0.9) };
+            let removed = cut.half_spaces(&DOMAIN);
+            let pieces = without(triangle.to_vec(), &removed);
+            for piece in &pieces {
+                for vertex in piece {
+                    prop_assert!(!inside(vertex.at, &removed));
+                }
+            }
+            // The area kept is the share of random points that are outside, checked through the areas' sum.
+            let total = area(&triangle);
+            let kept: f64 = pieces.iter().map(|piece| area(piece)).sum();
+            prop_assert!(kept <= total * (1.0 + 1e-9));
+            let any_inside = weights.iter().any(|w| {
+                let sum = w[0] + w[1] + w[2];
+                let p = (triangle[0].at * w[0] + triangle[1].at * w[1] + triangle[2].at * w[2]) / sum;
+                inside(p, &removed)
+            });
+            if any_inside {
+                prop_assert!(kept < total);
+            } else if pieces.is_empty() {
+                prop_assert!(total < 1e-9);
+            }
         }
     }
 }

@@ -8,7 +8,7 @@
     reason = "tests; pixels are found by truncation"
 )]
 use super::*;
-use crate::export::picture::font::regular;
+use crate::export::picture::style::regular;
 use crate::export::picture::{Swatch, Volume};
 use resvg::tiny_skia::Pixmap;
 

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::{
     Rgb,
     canvas::INK,
-    raster::{Layer, NONE, Samples, Scene, Seen, Skin},
+    samples::{Layer, NONE, Samples, Scene, Seen, Skin},
 };
 
 /// Neighbouring samples whose normals differ by more than 35° lie on both sides of a crease.

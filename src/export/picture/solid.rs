@@ -1,4 +1,4 @@
-//! Triangles before they are drawn: normals and the cut-away.
+//! The triangles of a part before they are drawn: their normals, and what the cut leaves of them.
 
 use std::collections::BTreeMap;
 
@@ -6,118 +6,12 @@ use glam::DVec3;
 
 use super::{
     camera::Eye,
-    view::{Box3, Cut, Part},
+    halfspace::{HalfSpace, Vertex, without},
+    scene::Part,
 };
 
 /// Faces that meet at less than this are drawn as one smooth surface.
 const CREASE_COS: f64 = 0.766; // 40°
-
-/// A half-space: the points with `normal · p ≤ offset`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct HalfSpace {
-    pub(super) normal: DVec3,
-    pub(super) offset: f64,
-}
-
-impl HalfSpace {
-    /// Above zero outside.
-    pub(super) fn height(&self, p: DVec3) -> f64 {
-        self.normal.dot(p) - self.offset
-    }
-
-    fn flipped(&self) -> Self {
-        Self {
-            normal: -self.normal,
-            offset: -self.offset,
-        }
-    }
-}
-
-/// What a cut removes, as the common part of half-spaces. Sides of the removed box on or beyond the domain's are left out.
-pub(super) fn removed(cut: &Cut, domain: &Box3) -> Vec<HalfSpace> {
-    match *cut {
-        Cut::Plane { point, removes } => {
-            let normal = -removes.normalize_or_zero();
-            vec![HalfSpace {
-                normal,
-                offset: normal.dot(point),
-            }]
-        }
-        Cut::Corner { low, high } => {
-            let mut sides = Vec::new();
-            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
-                if high.dot(axis) < domain.high.dot(axis) {
-                    sides.push(HalfSpace {
-                        normal: axis,
-                        offset: high.dot(axis),
-                    });
-                }
-                if low.dot(axis) > domain.low.dot(axis) {
-                    sides.push(HalfSpace {
-                        normal: -axis,
-                        offset: -low.dot(axis),
-                    });
-                }
-            }
-            sides
-        }
-    }
-}
-
-/// A point of a surface with its normal.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Vertex {
-    pub(super) at: DVec3,
-    pub(super) normal: DVec3,
-}
-
-impl Vertex {
-    fn between(self, other: Self, fraction: f64) -> Self {
-        Self {
-            at: self.at.lerp(other.at, fraction),
-            normal: self.normal.lerp(other.normal, fraction),
-        }
-    }
-}
-
-/// The part of a convex polygon inside a half-space (Sutherland & Hodgman 1974).
-pub(super) fn clipped(polygon: &[Vertex], to: &HalfSpace) -> Vec<Vertex> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (i, &a) in polygon.iter().enumerate() {
-        let b = polygon[(i + 1) % polygon.len()];
-        let (ha, hb) = (to.height(a.at), to.height(b.at));
-        if ha <= 0.0 {
-            kept.push(a);
-        }
-        if (ha < 0.0 && hb > 0.0) || (ha > 0.0 && hb < 0.0) {
-            kept.push(a.between(b, ha / (ha - hb)));
-        }
-    }
-    if kept.len() < 3 { Vec::new() } else { kept }
-}
-
-/// A convex polygon without what the half-spaces have in common: convex pieces that don't overlap.
-pub(super) fn without(polygon: Vec<Vertex>, removed: &[HalfSpace]) -> Vec<Vec<Vertex>> {
-    if removed.is_empty() {
-        return vec![polygon];
-    }
-    let mut pieces = Vec::new();
-    let mut rest = polygon;
-    for side in removed {
-        // What lies in the side's plane goes with the rest: it is on the removed body's skin.
-        if rest.iter().any(|vertex| side.height(vertex.at) > 0.0) {
-            let outside = clipped(&rest, &side.flipped());
-            if !outside.is_empty() {
-                pieces.push(outside);
-            }
-            rest = clipped(&rest, side);
-        }
-        if rest.is_empty() {
-            return pieces;
-        }
-    }
-    pieces
-}
 
 /// The triangles of a part, in stretched coordinates, with normals, after the cut.
 pub(super) fn triangles(part: &Part, eye: &Eye, removed: &[HalfSpace]) -> Vec<[Vertex; 3]> {
@@ -212,91 +106,6 @@ fn smooth_normals(points: &[DVec3], triangles: &[[u32; 3]], diagonal: f64) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
-
-    const DOMAIN: Box3 = Box3 {
-        low: DVec3::ZERO,
-        high: DVec3::ONE,
-    };
-
-    fn area(polygon: &[Vertex]) -> f64 {
-        (1..polygon.len().saturating_sub(1))
-            .map(|i| {
-                let [a, b, c] = [polygon[0].at, polygon[i].at, polygon[i + 1].at];
-                (b - a).cross(c - a).length() / 2.0
-            })
-            .sum()
-    }
-
-    fn vertex(at: [f64; 3]) -> Vertex {
-        Vertex {
-            at: DVec3::from(at),
-            normal: DVec3::Z,
-        }
-    }
-
-    fn inside(p: DVec3, removed: &[HalfSpace]) -> bool {
-        removed.iter().all(|side| side.height(p) < -1e-9)
-    }
-
-    #[test]
-    fn a_square_without_a_quarter_has_three_quarters_of_its_area() {
-        let square = [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].map(|[x, y]| vertex([x, y, 1.0]));
-        let cut = Cut::Corner {
-            low: DVec3::new(0.5, 0.5, -1.0),
-            high: DVec3::splat(2.0),
-        };
-        let pieces = without(square.to_vec(), &removed(&cut, &DOMAIN));
-        let sum: f64 = pieces.iter().map(|piece| area(piece)).sum();
-        assert!((sum - 0.75).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_plane_removes_the_side_it_points_to() {
-        let cut = Cut::Plane {
-            point: DVec3::splat(0.5),
-            removes: DVec3::new(3.0, 0.0, 0.0),
-        };
-        let removed = removed(&cut, &DOMAIN);
-        let square = [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].map(|[x, y]| vertex([x, y, 1.0]));
-        let pieces = without(square.to_vec(), &removed);
-        assert_eq!(pieces.len(), 1);
-        assert!(pieces[0].iter().all(|vertex| vertex.at.x <= 0.5));
-        assert!((area(&pieces[0]) - 0.5).abs() < 1e-12);
-    }
-
-    proptest! {
-        #[test]
-        fn pieces_are_what_lies_outside_the_removed_box(
-            corners in prop::array::uniform3(prop::array::uniform3(0.0..1.0_f64)),
-            low in prop::array::uniform3(0.05..0.5_f64),
-            weights in prop::collection::vec(prop::array::uniform3(0.01..1.0_f64), 40),
-        ) {
-            let triangle = corners.map(vertex);
-            let cut = Cut::Corner { low: DVec3::from(low), high: DVec3::new(0.8, 2.0, 0.9) };
-            let removed = removed(&cut, &DOMAIN);
-            let pieces = without(triangle.to_vec(), &removed);
-            for piece in &pieces {
-                for vertex in piece {
-                    prop_assert!(!inside(vertex.at, &removed));
-                }
-            }
-            // The area kept is the share of random points that are outside, checked through the areas' sum.
-            let total = area(&triangle);
-            let kept: f64 = pieces.iter().map(|piece| area(piece)).sum();
-            prop_assert!(kept <= total * (1.0 + 1e-9));
-            let any_inside = weights.iter().any(|w| {
-                let sum = w[0] + w[1] + w[2];
-                let p = (triangle[0].at * w[0] + triangle[1].at * w[1] + triangle[2].at * w[2]) / sum;
-                inside(p, &removed)
-            });
-            if any_inside {
-                prop_assert!(kept < total);
-            } else if pieces.is_empty() {
-                prop_assert!(total < 1e-9);
-            }
-        }
-    }
 
     #[test]
     fn normals_are_smooth_over_a_bend_and_sharp_at_a_right_angle() {

@@ -17,12 +17,14 @@ use super::{
     check::size,
     face::{self, Asked, OPEN},
     furniture,
+    halfspace::{HalfSpace, Vertex},
     legend::Legend,
     page::{Layout, Page},
     plot::heading,
-    raster::{self, Drawing, Object, Skin},
+    raster,
+    samples::{Drawing, Object, Skin},
     scale_bar::ScaleBar,
-    solid::{HalfSpace, Vertex, removed, triangles},
+    solid::triangles,
 };
 
 impl Scene {
@@ -39,7 +41,7 @@ impl Scene {
         let removed = self
             .cut
             .as_ref()
-            .map_or_else(Vec::new, |cut| removed(cut, &self.domain));
+            .map_or_else(Vec::new, |cut| cut.half_spaces(&self.domain));
         let eye = Eye::new(&self.camera, &self.domain);
 
         // Text first: it decides how much room is left.
