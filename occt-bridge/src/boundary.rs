@@ -5,8 +5,8 @@
 
 use crate::error::{BridgeError, from_kernel, input};
 use crate::ffi::bridge;
+use crate::geometry::Surface;
 use crate::shape::{Shape, list};
-use crate::topology::Surface;
 
 /// Tables of shapes; they refer to each other by index.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,9 +1,9 @@
 //! Validity, in words.
 
-use crate::Threads;
 use crate::error::{BridgeError, from_kernel};
 use crate::ffi::bridge;
 use crate::solids::Solids;
+use crate::threads::Threads;
 
 /// Something wrong with a solid.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,6 +1,82 @@
-//! Curves and surfaces: everything about them that can be checked without evaluating them.
+//! Curves and surfaces, and everything about them that can be checked without evaluating them.
 
-use crate::topology::{Curve, Pcurve, Surface};
+/// A curve in space.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq)]
+pub enum Curve {
+    /// `start + t (end - start)`, t in 0..1.
+    Line {
+        /// At t = 0.
+        start: [f64; 3],
+        /// At t = 1.
+        end: [f64; 3],
+    },
+    /// A clamped B-spline. If all its poles are within the tolerance of each other its edges are degenerate (a pole of a sphere).
+    BSpline {
+        /// Degree, at least 1.
+        degree: usize,
+        /// Flat, clamped knots: number of poles + degree + 1.
+        knots: Vec<f64>,
+        /// Control points.
+        poles: Vec<[f64; 3]>,
+        /// One positive weight per pole, if rational.
+        weights: Option<Vec<f64>>,
+    },
+}
+
+/// A surface.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surface {
+    /// An unbounded plane.
+    Plane {
+        /// A point of it.
+        origin: [f64; 3],
+        /// Its normal, of any length.
+        normal: [f64; 3],
+        /// A direction that becomes u; not parallel to the normal.
+        x_axis: [f64; 3],
+    },
+    /// A clamped B-spline surface; its normal is ∂u × ∂v.
+    BSpline {
+        /// Degree in u, at least 1.
+        degree_u: usize,
+        /// Degree in v, at least 1.
+        degree_v: usize,
+        /// Flat, clamped knots in u.
+        knots_u: Vec<f64>,
+        /// Flat, clamped knots in v.
+        knots_v: Vec<f64>,
+        /// Control points, u-major: (i, j) at i · nv + j.
+        poles: Vec<[f64; 3]>,
+        /// One positive weight per pole, if rational.
+        weights: Option<Vec<f64>>,
+    },
+}
+
+/// A curve in the parameters of a surface.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq)]
+pub enum Pcurve {
+    /// `origin + t direction`, t being the edge's parameter.
+    Line {
+        /// At t = 0.
+        origin: [f64; 2],
+        /// (du/dt, dv/dt), of any length.
+        direction: [f64; 2],
+    },
+    /// A clamped B-spline over the edge's range.
+    BSpline {
+        /// Degree, at least 1.
+        degree: usize,
+        /// Flat, clamped knots.
+        knots: Vec<f64>,
+        /// Control points.
+        poles: Vec<[f64; 2]>,
+        /// One positive weight per pole, if rational.
+        weights: Option<Vec<f64>>,
+    },
+}
 
 /// Largest degree of the kernel's B-splines.
 const MAX_DEGREE: usize = 25;

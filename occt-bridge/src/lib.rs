@@ -23,10 +23,12 @@ mod assembled;
 mod boundary;
 mod brep;
 mod bytes;
+mod cells;
 mod check;
 mod error;
 mod ffi;
 mod geometry;
+mod making;
 mod measure;
 mod merge;
 mod mesh;
@@ -36,6 +38,7 @@ mod shape;
 mod solids;
 mod step;
 mod tables;
+mod threads;
 mod topology;
 
 pub use assembled::{OnSurface, TableEdge, TableFace, TableSolid, TableVertex, Tables};
@@ -43,36 +46,20 @@ pub use boundary::{
     Boundary, BoundaryEdge, BoundaryFace, BoundaryShape, BoundaryUse, Path, Shell, boundary,
 };
 pub use brep::{read_brep, write_brep};
+pub use cells::{Cell, FaceOrigin, PartitionFace};
 pub use check::{Defect, defects};
 pub use error::BridgeError;
+pub use geometry::{Curve, Pcurve, Surface};
+pub use making::{box_solid, faces, solid};
 pub use measure::{
     Bounds, Classifier, FaceIntegral, FaceSample, Position, area, bounds, face_integrals,
     face_samples, solid_boxes, volume,
 };
 pub use mesh::{FaceMesh, MeshOptions, triangulate, triangulate_solids};
 pub use monitor::Cancel;
-pub use partition::{
-    Cell, FaceOrigin, Partition, PartitionFace, PartitionOptions, UNUSED_FACES, partition,
-};
-pub use shape::{Shape, ShapeKind, compound, set_threads, version};
+pub use partition::{Partition, PartitionOptions, UNUSED_FACES, partition};
+pub use shape::{Shape, ShapeKind, compound, version};
 pub use solids::{Solid, SolidFace, Solids};
 pub use step::{LengthUnit, ReadPart, read_step, read_step_in};
-pub use topology::{
-    Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology, box_solid, faces, solid,
-};
-
-/// Whether an operation may use the kernel's worker threads.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Threads {
-    /// On the calling thread.
-    One,
-    /// On all of the kernel's threads, see [`set_threads`]. The results are the same.
-    #[default]
-    All,
-}
-
-impl Threads {
-    pub(crate) fn parallel(self) -> bool {
-        self == Self::All
-    }
-}
+pub use threads::{Threads, set_threads};
+pub use topology::{Edge, EdgeUse, Face, Topology};

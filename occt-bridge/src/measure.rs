@@ -7,11 +7,11 @@
 
 use cxx::UniquePtr;
 
-use crate::Threads;
 use crate::error::{BridgeError, from_kernel, input};
 use crate::ffi::bridge;
 use crate::shape::Shape;
 use crate::solids::Solids;
+use crate::threads::Threads;
 
 /// Integrals over a face that is not reversed.
 #[derive(Debug, Clone, Copy, PartialEq)]

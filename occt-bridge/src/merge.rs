@@ -4,13 +4,10 @@
 //! edge through the solid's cells: across the cell to its other face there, and through that face into the next cell if it is dropped.
 //! So shells come apart correctly where a solid touches itself along an edge, with no point or angle computed.
 
+use crate::cells::{Cell, Side};
 use crate::error::{BridgeError, input};
 use crate::ffi::bridge;
-use crate::partition::Cell;
 use crate::solids::Solid;
-
-/// An index and whether reversed.
-pub(crate) type Side = (usize, bool);
 
 pub(crate) struct Merger<'a> {
     cells: &'a [Cell],

@@ -1,10 +1,10 @@
 //! Triangles, for pictures.
 
-use crate::Threads;
 use crate::error::{BridgeError, from_kernel};
 use crate::ffi::bridge;
 use crate::shape::Shape;
 use crate::solids::Solids;
+use crate::threads::Threads;
 
 /// How fine triangles are.
 #[derive(Debug, Clone, Copy, PartialEq)]

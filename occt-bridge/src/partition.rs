@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use cxx::UniquePtr;
 
-use crate::Threads;
+use crate::cells::{Cell, FaceOrigin, PartitionFace, Side};
 use crate::error::{BridgeError, from_kernel};
 use crate::ffi::bridge;
-use crate::merge::{Merger, Side};
+use crate::merge::Merger;
 use crate::monitor::{Cancel, Monitor};
 use crate::shape::{Shape, list};
 use crate::solids::{SolidFace, Solids};
+use crate::threads::Threads;
 
 /// The alert of a fuse that left faces over when it built cells: it has lost volume, even if nothing else says so.
 pub const UNUSED_FACES: &str = "BOPAlgo_AlertSolidBuilderUnusedFaces";
@@ -33,34 +34,6 @@ pub struct Partition {
     alerts: Vec<String>,
     crossing_faces: usize,
     crossing_arguments: Vec<(usize, usize)>,
-}
-
-/// A region that no argument's boundary divides further.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Cell {
-    /// Faces that bound it, by index into [`Partition::faces`], and whether reversed: a cell's faces look out of it.
-    pub faces: Vec<(usize, bool)>,
-    /// The arguments that contain it, in increasing order, as the kernel's history tells.
-    pub inside: Vec<usize>,
-}
-
-/// A face of the partition.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct PartitionFace {
-    /// The faces of arguments that it is a piece of: more than one where arguments touch along it.
-    pub origins: Vec<FaceOrigin>,
-}
-
-/// Where a face comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FaceOrigin {
-    /// Index of the argument.
-    pub argument: usize,
-    /// Index of the face within it: as in [`Topology::faces`](crate::Topology::faces), or the order of [`crate::box_solid`].
-    pub face: usize,
-    /// Whether the face, not reversed, looks out of the argument. So a cell that uses the face with `reversed ==
-    /// !same_orientation` lies inside the argument, and the one on the other side outside it.
-    pub same_orientation: bool,
 }
 
 /// Divides space by the boundaries of solids.
@@ -211,6 +184,18 @@ impl Partition {
         let handle = bridge::build_solids(&self.handle, &merged.data)
             .map_err(|e| from_kernel(operation, &e))?;
         Ok(Solids::new(handle, merged.solids, faces))
+    }
+}
+
+impl Solids {
+    /// Solids as they are: nothing is intersected, and faces are shared only where they already were. Solid i has owner i, and
+    /// its faces have themselves as origins (argument i).
+    ///
+    /// # Errors
+    /// [`BridgeError::Input`] if there is no shape, one is not a solid, or one is there twice.
+    pub fn from_shapes(shapes: &[Shape]) -> Result<Self, BridgeError> {
+        let owners: Vec<_> = (0..shapes.len()).map(Some).collect();
+        Partition::adopt(shapes)?.merge(&owners)
     }
 }
 

@@ -143,9 +143,3 @@ pub fn compound(shapes: &[Shape]) -> Result<Shape, BridgeError> {
 pub fn version() -> String {
     bridge::kernel_version().unwrap_or_else(|error| error.what().to_owned())
 }
-
-/// How many threads the kernel uses where an operation may run on several. Call it before the first operation: until then the kernel
-/// takes as many as the machine has.
-pub fn set_threads(count: usize) -> Result<(), BridgeError> {
-    bridge::use_threads(count).map_err(|e| from_kernel("setting the number of threads", &e))
-}

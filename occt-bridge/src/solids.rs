@@ -3,9 +3,9 @@
 use cxx::UniquePtr;
 
 use crate::bytes::{Reader, Writer};
+use crate::cells::FaceOrigin;
 use crate::error::{BridgeError, from_kernel, input};
 use crate::ffi::bridge;
-use crate::partition::{FaceOrigin, Partition};
 use crate::shape::Shape;
 
 /// Solids and the faces they share.
@@ -48,16 +48,6 @@ impl Solids {
             bodies: solids,
             faces,
         }
-    }
-
-    /// Solids as they are: nothing is intersected, and faces are shared only where they already were. Solid i has owner i, and
-    /// its faces have themselves as origins (argument i).
-    ///
-    /// # Errors
-    /// [`BridgeError::Input`] if there is no shape, one is not a solid, or one is there twice.
-    pub fn from_shapes(shapes: &[Shape]) -> Result<Self, BridgeError> {
-        let owners: Vec<_> = (0..shapes.len()).map(Some).collect();
-        Partition::adopt(shapes)?.merge(&owners)
     }
 
     /// The solids.

@@ -5,9 +5,10 @@
 use crate::error::{BridgeError, input};
 use crate::ffi::bridge;
 use crate::geometry::{
-    check_curve, check_pcurve, check_surface, curve_domain, finite, index, pcurve_domain, small,
+    Curve, Pcurve, Surface, check_curve, check_pcurve, check_surface, curve_domain, finite, index,
+    pcurve_domain, small,
 };
-use crate::topology::{Curve, Edge, EdgeUse, Face, Pcurve, Surface, Topology};
+use crate::topology::{Edge, EdgeUse, Face, Topology};
 
 /// Flattens the tables, checking everything that needs no geometry.
 pub(crate) fn checked(

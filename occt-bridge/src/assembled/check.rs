@@ -2,11 +2,11 @@
 //!
 //! The kernel would answer most of these defects with a shape that fails later, far from here.
 
-use super::{OnSurface, TableEdge, TableFace, Tables};
+use super::tables::{OnSurface, TableEdge, TableFace, Tables};
 use crate::geometry::{
-    check_curve, check_pcurve, check_surface, curve_domain, finite, index, pcurve_domain,
+    Curve, Surface, check_curve, check_pcurve, check_surface, curve_domain, finite, index,
+    pcurve_domain,
 };
-use crate::topology::{Curve, Surface};
 
 pub(super) fn check(tables: &Tables) -> Result<(), String> {
     each("vertex", &tables.vertices, |vertex| {

@@ -1,9 +1,8 @@
 //! The tables as the kernel's side reads them: rows that own no memory, and one pool of numbers.
 
-use super::Tables;
+use super::tables::Tables;
 use crate::ffi::bridge;
-use crate::geometry::{pole_count, small};
-use crate::topology::{Curve, Pcurve, Surface};
+use crate::geometry::{Curve, Pcurve, Surface, pole_count, small};
 
 /// Of checked tables.
 pub(super) fn flat(tables: &Tables) -> Result<bridge::AssembledData, String> {
