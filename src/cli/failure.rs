@@ -1,8 +1,4 @@
-//! Failures and their exit codes.
-
-use std::process::ExitCode;
-
-use super::print;
+//! Why commands fail.
 
 /// Why a command failed.
 #[derive(Debug)]
@@ -28,23 +24,6 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// Tells the user and gives the exit code.
-    pub(super) fn report(self) -> ExitCode {
-        let (code, text) = match self {
-            Self::Wrong(text) => (1, format!("error: {text}")),
-            Self::WrongModel { text, json } => {
-                let unprinted = json.and_then(|json| print::out(&json).err());
-                print::err(text.trim_end());
-                return unprinted.map_or(ExitCode::from(1), Self::report);
-            }
-            Self::Unproven(text) => (2, format!("error: {text}")),
-            Self::Surroundings(text) => (3, format!("error: {text}")),
-            Self::Interrupted => (130, "interrupted; nothing was written".to_owned()),
-        };
-        print::err(text.trim_end());
-        ExitCode::from(code)
-    }
-
     /// A file operation that failed.
     pub(super) fn file(what: &str, path: &std::path::Path, error: &std::io::Error) -> Self {
         Self::Surroundings(format!("cannot {what} {}: {error}", path.display()))

@@ -86,12 +86,12 @@ pub fn run() -> ExitCode {
                 return ExitCode::from(1);
             }
             let flushed = printed.and_then(|()| std::io::stdout().flush());
-            return print::told(flushed).map_or_else(Failure::report, |()| ExitCode::SUCCESS);
+            return print::told(flushed).map_or_else(print::failure, |()| ExitCode::SUCCESS);
         }
     };
     match cli.command.run() {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => print::failure(failure),
     }
 }
 

@@ -1,6 +1,7 @@
-//! Printing that survives a closed pipe, and tells of a full disk.
+//! Printing that survives a closed pipe, and tells of a full disk; failures in words, with their exit codes.
 
 use std::io::{Error, ErrorKind, Write};
+use std::process::ExitCode;
 
 use super::failure::Failure;
 
@@ -23,4 +24,21 @@ pub(super) fn told(written: Result<(), Error>) -> Result<(), Failure> {
 /// A line to standard error.
 pub(super) fn err(text: &str) {
     drop(writeln!(std::io::stderr().lock(), "{text}"));
+}
+
+/// Tells the user of a failure and gives the exit code.
+pub(super) fn failure(failure: Failure) -> ExitCode {
+    let (code, text) = match failure {
+        Failure::Wrong(text) => (1, format!("error: {text}")),
+        Failure::WrongModel { text, json } => {
+            let unprinted = json.and_then(|json| out(&json).err());
+            err(text.trim_end());
+            return unprinted.map_or(ExitCode::from(1), self::failure);
+        }
+        Failure::Unproven(text) => (2, format!("error: {text}")),
+        Failure::Surroundings(text) => (3, format!("error: {text}")),
+        Failure::Interrupted => (130, "interrupted; nothing was written".to_owned()),
+    };
+    err(text.trim_end());
+    ExitCode::from(code)
 }
