@@ -4,23 +4,8 @@
 //! the knots `t_1 … t_{p+1}` is the mean of the blossom over all ways to leave one of them out. Costs more arithmetic
 //! than PT97 A5.9 (Piegl & Tiller 1994, Huang 2005), which only matters for nets far larger than geology's.
 
-use super::{Curve, KnotVector, MAX_DEGREE, Surface};
+use super::{Curve, ElevateError, KnotVector, MAX_DEGREE, Surface};
 use glam::DVec4;
-use thiserror::Error;
-
-/// Why a degree cannot be elevated.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum ElevateError {
-    /// The result would be above [`MAX_DEGREE`].
-    #[error("degree {degree} elevated {times} times is above {MAX_DEGREE}; elevate less")]
-    Degree {
-        /// The degree now.
-        degree: usize,
-        /// By how much to elevate.
-        times: usize,
-    },
-}
 
 impl KnotVector {
     /// Degree and the multiplicity of every knot raised by one.

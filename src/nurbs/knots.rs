@@ -117,6 +117,20 @@ pub enum KnotError {
     },
 }
 
+/// Why a degree cannot be elevated.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ElevateError {
+    /// The result would be above [`MAX_DEGREE`].
+    #[error("degree {degree} elevated {times} times is above {MAX_DEGREE}; elevate less")]
+    Degree {
+        /// The degree now.
+        degree: usize,
+        /// By how much to elevate.
+        times: usize,
+    },
+}
+
 /// A clamped knot vector; holding one proves that it is valid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnotVector {

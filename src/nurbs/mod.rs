@@ -36,10 +36,9 @@ mod surface;
 
 pub use closest::{Closest, ClosestOnSurface};
 pub use curve::{Curve, CurveError};
-pub use elevate::ElevateError;
 pub use function::Function;
 pub(crate) use function::{PROBES, spans_probed};
-pub use knots::{Basis, KnotError, KnotVector, MAX_DEGREE};
+pub use knots::{Basis, ElevateError, KnotError, KnotVector, MAX_DEGREE};
 pub use lattice::{Lattice, LatticeError};
 pub use refine::RefineError;
 pub use surface::{Surface, SurfaceError};

@@ -1,10 +1,70 @@
 //! Whether the sides of some surfaces meet in pairs.
 
-use super::{EnclosureError, Side};
 use crate::nurbs::bezier::Patch;
 use crate::nurbs::closest::nearest;
 use crate::nurbs::{Curve, Surface};
 use glam::DVec3;
+use std::fmt;
+use thiserror::Error;
+
+/// One of the four sides of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Least u.
+    UStart,
+    /// Greatest u.
+    UEnd,
+    /// Least v.
+    VStart,
+    /// Greatest v.
+    VEnd,
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::UStart => "u = start",
+            Self::UEnd => "u = end",
+            Self::VStart => "v = start",
+            Self::VEnd => "v = end",
+        })
+    }
+}
+
+/// Why surfaces are not a closed shell.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum EnclosureError {
+    /// There are no surfaces.
+    #[error("a shell needs surfaces and there are none")]
+    Empty,
+    /// The tolerance is not a positive number.
+    #[error(
+        "the tolerance is {value}; it must be above zero and far below the shell's size {size}"
+    )]
+    Tolerance {
+        /// The tolerance.
+        value: f64,
+        /// The diagonal of the shell's box.
+        size: f64,
+    },
+    /// A side of a surface is the side of no other.
+    #[error(
+        "the shell is open: side {side} of surface {surface}, from {from} to {to}, is no other side to within {tolerance}; add the missing surface or make the edges coincide"
+    )]
+    Open {
+        /// Position of the surface in the list.
+        surface: usize,
+        /// Its side.
+        side: Side,
+        /// Where the side starts.
+        from: DVec3,
+        /// Where the side ends.
+        to: DVec3,
+        /// How far apart edges may be.
+        tolerance: f64,
+    },
+}
 
 struct Edge {
     surface: usize,

@@ -5,8 +5,8 @@
 
 use super::projection::{Projection, Verdict};
 use super::shade::{Shade, Tree};
+use super::shell::{Piece, Shell};
 use super::tally::{Outcome, Tally};
-use super::{Piece, Shell};
 use crate::nurbs::bezier::{Along, Jet, Patch, Region, halves};
 use glam::{DVec2, DVec3, Vec3Swizzles, Vec4Swizzles};
 use std::sync::OnceLock;

@@ -19,16 +19,16 @@ mod columns;
 mod oblique;
 mod projection;
 mod shade;
+mod shell;
 mod tally;
 
 use super::Surface;
-use super::bezier::{Patch, Region};
 use super::closest::nearest;
+pub use closure::{EnclosureError, Side};
 use columns::Columns;
 use glam::DVec3;
-use std::fmt;
+use shell::{Piece, Shell};
 use tally::Outcome;
-use thiserror::Error;
 
 /// Default tolerance for edges to meet, as a fraction of the shell's size: far above rounding, far below any geology.
 const CLOSURE: f64 = 1e-9;
@@ -36,94 +36,12 @@ const CLOSURE: f64 = 1e-9;
 /// A point counts as on the shell below this fraction of its size: what rounding leaves of a crossing's height.
 const ON_SHELL: f64 = 1e-13;
 
-/// One of the four sides of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// Least u.
-    UStart,
-    /// Greatest u.
-    UEnd,
-    /// Least v.
-    VStart,
-    /// Greatest v.
-    VEnd,
-}
-
-impl fmt::Display for Side {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::UStart => "u = start",
-            Self::UEnd => "u = end",
-            Self::VStart => "v = start",
-            Self::VEnd => "v = end",
-        })
-    }
-}
-
-/// Why surfaces are not a closed shell.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum EnclosureError {
-    /// There are no surfaces.
-    #[error("a shell needs surfaces and there are none")]
-    Empty,
-    /// The tolerance is not a positive number.
-    #[error(
-        "the tolerance is {value}; it must be above zero and far below the shell's size {size}"
-    )]
-    Tolerance {
-        /// The tolerance.
-        value: f64,
-        /// The diagonal of the shell's box.
-        size: f64,
-    },
-    /// A side of a surface is the side of no other.
-    #[error(
-        "the shell is open: side {side} of surface {surface}, from {from} to {to}, is no other side to within {tolerance}; add the missing surface or make the edges coincide"
-    )]
-    Open {
-        /// Position of the surface in the list.
-        surface: usize,
-        /// Its side.
-        side: Side,
-        /// Where the side starts.
-        from: DVec3,
-        /// Where the side ends.
-        to: DVec3,
-        /// How far apart edges may be.
-        tolerance: f64,
-    },
-}
-
 /// A closed shell that can be asked for the points inside it.
 #[derive(Clone, Debug)]
 pub struct Enclosure {
     surfaces: Vec<Surface>,
     shell: Shell,
     columns: Columns,
-    low: DVec3,
-    high: DVec3,
-}
-
-/// The Bézier patches of the surfaces, relative to the middle of the shell so that far-away coordinates cost no digits.
-#[derive(Clone, Debug)]
-struct Shell {
-    centre: DVec3,
-    patches: Vec<Piece>,
-    /// How far apart edges may be.
-    tolerance: f64,
-    /// How near the shell a point counts as on it.
-    width: f64,
-}
-
-/// A Bézier patch of the shell.
-#[derive(Clone, Debug)]
-struct Piece {
-    patch: Patch,
-    region: Region,
-    surface: usize,
-    /// The whole surface's parameters.
-    domain: Region,
     low: DVec3,
     high: DVec3,
 }
@@ -216,37 +134,6 @@ impl Enclosure {
     /// The surfaces, in the order in which they were given.
     pub fn surfaces(&self) -> &[Surface] {
         &self.surfaces
-    }
-}
-
-impl Shell {
-    fn new(surfaces: &[Surface], centre: DVec3, tolerance: f64, width: f64) -> Self {
-        let mut patches = Vec::new();
-        for (k, surface) in surfaces.iter().enumerate() {
-            let (u, v) = (surface.knots_u().domain(), surface.knots_v().domain());
-            let domain = Region {
-                u: [u.0, u.1],
-                v: [v.0, v.1],
-            };
-            for (patch, region) in Patch::of_surface(surface) {
-                let patch = patch.mapped(|x| x - centre);
-                let (low, high) = patch.hull();
-                patches.push(Piece {
-                    patch,
-                    region,
-                    surface: k,
-                    domain,
-                    low,
-                    high,
-                });
-            }
-        }
-        Self {
-            centre,
-            patches,
-            tolerance,
-            width,
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rays in any direction: patches are halved where the ray passes until what is left is close to linear.
 
-use super::Shell;
 use super::projection::{Projection, Verdict};
+use super::shell::Shell;
 use super::tally::{Outcome, Tally};
 use crate::nurbs::bezier::{Along, Patch, Region, halves};
 use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};

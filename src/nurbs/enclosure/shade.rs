@@ -1,6 +1,6 @@
 //! Which of many things a vertical ray may cross: a tree of their boxes, seen from above.
 
-use super::Shell;
+use super::shell::Shell;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 /// Things in a leaf of the tree.

@@ -1,7 +1,7 @@
 //! Counting the crossings of one ray.
 
-use super::Piece;
 use super::projection::Crossing;
+use super::shell::Piece;
 use crate::nurbs::bezier::Region;
 
 /// What one ray says.
