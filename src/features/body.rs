@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3Swizzles};
 
 use super::ellipsoid::Ellipsoid;
+pub use super::nudge::Nudge;
 use super::side::{Side, points_bounds};
 use crate::nurbs::{Curve, KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
@@ -109,17 +110,6 @@ impl Body {
             Self::Ellipsoid(_) | Self::Side(_) => None,
         }
     }
-}
-
-/// A tiny change of a body, by which contacts that coincide come apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nudge {
-    /// How much the lowest point rises, and each side moves in; a level top stays level (m).
-    pub rise: f64,
-    /// How much farther out the ends of the longest side in plan are (m).
-    pub reach: f64,
-    /// By how much all of it moves (m).
-    pub shift: DVec3,
 }
 
 impl Body {

@@ -7,7 +7,7 @@
 
 use glam::{DMat3, DVec3, EulerRot};
 
-use super::body::Nudge;
+use super::nudge::Nudge;
 use super::trajectory::azimuth_vector;
 use crate::nurbs::{KnotError, KnotVector, Surface, SurfaceError};
 

@@ -13,6 +13,7 @@ pub mod extrusion;
 pub mod frame;
 pub mod horizon;
 pub mod meander;
+mod nudge;
 pub mod pinch_out;
 pub mod profile;
 pub mod section;

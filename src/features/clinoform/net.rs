@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{ClinoformDesign, ClinoformError};
+use super::design::{ClinoformDesign, ClinoformError};
 use crate::features::frame::{ClinoformFrame, ClinoformUnit};
 use crate::nurbs::interpolate::{self, InterpolateError};
 use crate::nurbs::{Basis, Function, KnotError, KnotVector, PROBES, spans_probed};
