@@ -4,7 +4,7 @@
 //! has two pcurves, one for u at its start and one for its end; the edges at the poles are degenerate.
 
 use super::kernel::{Edge, Face, Topology};
-use super::shapes::{EXACT, along_u, along_v, curve, spline};
+use super::splines::{EXACT, along_u, along_v, curve, spline};
 use crate::nurbs::Surface;
 
 /// The shell of a surface that is closed in u and shrinks to a point at both ends of v, its normal

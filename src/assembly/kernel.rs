@@ -13,9 +13,11 @@ pub(crate) use occt_bridge::{
 use occt_bridge::{PartitionOptions, partition};
 
 use super::labels::{self, Holders, LabelError, Side};
-use super::proof::DOMAIN;
 use crate::model::plan::PlannedBody;
 use crate::model::rules::Rules;
+
+/// The domain's argument among the kernel's arguments: its block, and the base and top that bound it there.
+pub(crate) const DOMAIN: usize = 0;
 
 /// Everything one general fuse needs; plain data, so that another process can do it.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -16,6 +16,7 @@ mod partitioned;
 pub mod proof;
 pub(crate) mod shapes;
 mod sides;
+pub(crate) mod splines;
 pub mod unfinished;
 pub mod worker;
 

@@ -14,7 +14,7 @@ use super::kernel::{Cancel, FaceIntegral, Solids};
 use super::labels::Holders;
 use super::measure::{Counts, Measured};
 use super::proof::{Check, Evidence};
-use super::shapes::EXACT;
+use super::splines::EXACT;
 use super::{AssemblyError, Engine, Failed, Options, contacts};
 use crate::features::body::TroughError;
 use crate::model::owner::Owners;

@@ -8,7 +8,7 @@
 use glam::{DVec3, Vec3Swizzles};
 
 use super::kernel::{Curve, Edge, EdgeUse, Face, Surface, Topology};
-use super::shapes::{EXACT, along_u, along_v, curve, spline};
+use super::splines::{EXACT, along_u, along_v, curve, spline};
 use crate::features::frame::ClinoformFrame;
 use crate::features::horizon::{Horizon, HorizonError, OVERSHOOT};
 use crate::features::side::Side;

@@ -3,11 +3,10 @@
 use glam::DVec3;
 
 use crate::assembly::kernel::{
-    Curve, FaceOrigin, OnSurface, Pcurve, Surface, TableEdge, TableFace, TableSolid, TableVertex,
-    Tables,
+    Curve, DOMAIN, FaceOrigin, OnSurface, Pcurve, Surface, TableEdge, TableFace, TableSolid,
+    TableVertex, Tables,
 };
-use crate::assembly::proof::DOMAIN;
-use crate::assembly::shapes::{self, EXACT};
+use crate::assembly::splines::{self, EXACT};
 use crate::partition::{CurveShape, PlaneCurve, SheetShape, Topology};
 
 /// Degree of computed curves.
@@ -81,7 +80,7 @@ pub(super) fn tables(topology: &Topology, first_bound: usize) -> Tables {
 
 fn curve(shape: &CurveShape) -> Curve {
     match shape {
-        CurveShape::Known(curve) => shapes::curve(curve),
+        CurveShape::Known(curve) => splines::curve(curve),
         CurveShape::Computed { knots, points } => Curve::BSpline {
             degree: DEGREE,
             knots: knots.clone(),
@@ -113,6 +112,6 @@ fn surface(sheet: &SheetShape) -> Surface {
             normal: normal.to_array(),
             x_axis: x_axis.to_array(),
         },
-        None => shapes::spline(&sheet.surface),
+        None => splines::spline(&sheet.surface),
     }
 }

@@ -20,7 +20,7 @@ mod tree;
 use glam::DVec3;
 
 use super::Options;
-use super::kernel::{BridgeError, Cancel, Solids, Threads, defects};
+use super::kernel::{BridgeError, Cancel, DOMAIN, Solids, Threads, defects};
 use super::measure::Measured;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
@@ -39,9 +39,6 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 const NEAR: f64 = 1e-9;
 /// Relative error of the kernel's integrals.
 const KERNEL_VOLUME: f64 = 1e-6;
-/// The domain's argument among the kernel's arguments: its block, and the base and top that bound it there.
-pub(super) const DOMAIN: usize = 0;
-
 /// How thorough the proof is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Level {
@@ -245,7 +242,7 @@ impl Prover<'_> {
         if self.evidence.topology.is_some() {
             own
         } else {
-            own.max(super::shapes::EXACT)
+            own.max(super::splines::EXACT)
         }
     }
 

@@ -18,7 +18,7 @@ mod polynomial;
 use glam::DVec3;
 
 use crate::assembly::kernel::{Boundary, BoundaryEdge, Path, Surface};
-use crate::assembly::shapes::EXACT;
+use crate::assembly::splines::EXACT;
 use crate::nurbs::{Curve, KnotVector};
 
 /// Coordinates up to this one (m) are near: there, neighbouring numbers of millimetres are closer by a factor of ten than

@@ -31,7 +31,7 @@ use super::ExportError;
 use super::report::solid_names;
 use super::text::ascii;
 use crate::assembly::kernel::{self, BridgeError};
-use crate::assembly::shapes::EXACT;
+use crate::assembly::splines::EXACT;
 use crate::assembly::{self, Assembly};
 use crate::model::realisation::Realisation;
 use crate::model::{Facies, Model, Property};
