@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{GroupEntry, Parts, solid_names};
+use super::entries::GroupEntry;
+use super::parts::{Parts, solid_names};
 
 /// Connected groups of the solids whose volumes are chosen: solids that share a face are connected.
 pub(super) fn groups(parts: Parts<'_>, chosen: &dyn Fn(usize) -> bool) -> Vec<GroupEntry> {

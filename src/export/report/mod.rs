@@ -2,37 +2,21 @@
 
 mod entries;
 mod groups;
+mod parts;
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::assembly::proof::Level;
 use crate::assembly::{Assembly, kernel};
-use crate::model::plan::AssemblyPlan;
-use crate::model::realisation::Realisation;
-use crate::model::{Facies, Model, Property, remarks};
+use crate::model::{Facies, Property, remarks};
 
 pub use entries::*;
 use groups::groups;
+pub use parts::{Parts, solid_names};
 
 /// Name and version of the report's own schema.
 const SCHEMA: &str = "clinothem-report-1";
-
-/// What a report is made of.
-#[derive(Clone, Copy)]
-pub struct Parts<'a> {
-    /// The model.
-    pub model: &'a Model,
-    /// Its realisation.
-    pub realisation: &'a Realisation,
-    /// The plan.
-    pub plan: &'a AssemblyPlan,
-    /// The assembly.
-    pub assembly: &'a Assembly,
-    /// How thorough its proof was.
-    pub level: Level,
-}
 
 impl Report {
     /// The report of a build.
@@ -146,16 +130,6 @@ fn assembly_entry(assembly: &Assembly) -> AssemblyEntry {
         tolerance_m: assembly.measured.tolerance,
         kernel_warnings: assembly.alerts.clone(),
     }
-}
-
-/// The names of a volume's solids: its own, numbered if there are several.
-pub fn solid_names(name: &str, count: usize) -> Vec<String> {
-    if count == 1 {
-        return vec![name.to_owned()];
-    }
-    (1..=count)
-        .map(|number| format!("{name}#{number}"))
-        .collect()
 }
 
 fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {

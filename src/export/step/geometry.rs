@@ -7,7 +7,8 @@
 
 use std::collections::HashMap;
 
-use super::part21::{Draft, Id};
+use super::draft::Draft;
+use super::part21::Id;
 use super::shapes::{Piece, Plane, write_surface};
 use crate::assembly::kernel::{Boundary, Surface};
 

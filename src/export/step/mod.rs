@@ -15,7 +15,9 @@
 //! into.
 
 mod document;
+mod draft;
 mod far;
+mod flavours;
 mod geometry;
 mod part21;
 mod presentation;
@@ -26,28 +28,19 @@ mod tree;
 
 use std::path::Path;
 
-use self::tree::{Tree, group};
+use self::tree::{Tree, color, facies_of, group};
 use super::ExportError;
 use super::report::solid_names;
 use super::text::ascii;
 use crate::assembly::kernel::{self, BridgeError};
 use crate::assembly::splines::EXACT;
 use crate::assembly::{self, Assembly};
+use crate::model::Model;
 use crate::model::realisation::Realisation;
-use crate::model::{Facies, Model, Property};
 
-pub use self::document::{Content, Document, Node, assembly, shared};
-pub use self::part21::Exchange;
-
-/// The application protocol that a file declares.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Protocol {
-    /// AP214: read by everything.
-    #[default]
-    Ap214,
-    /// AP242.
-    Ap242,
-}
+pub use self::document::{Content, Document, Node, Protocol};
+pub use self::draft::Exchange;
+pub use self::flavours::{assembly, shared};
 
 fn kernel_error(error: &BridgeError) -> ExportError {
     ExportError::Kernel {
@@ -169,26 +162,4 @@ fn document(model: &Model, protocol: Protocol, root: Node) -> Document {
         accuracy: EXACT,
         root,
     }
-}
-
-fn facies_of<'a>(model: &'a Model, name: &str) -> Option<&'a Facies> {
-    model.facies.iter().find(|facies| facies.name == name)
-}
-
-fn color(facies: &Facies) -> [u8; 3] {
-    [facies.color.r, facies.color.g, facies.color.b]
-}
-
-/// `facies=sand; porosity=0.24; permeability_mD=600,600,120`.
-fn description(facies: &Facies) -> String {
-    let mut words = vec![format!("facies={}", ascii(&facies.name))];
-    for (name, property) in &facies.properties {
-        let unit = if name == "permeability" { "_mD" } else { "" };
-        let value = match property {
-            Property::Scalar(value) => value.to_string(),
-            Property::Vector(values) => values.map(|value| value.to_string()).join(","),
-        };
-        words.push(format!("{}{unit}={value}", ascii(name)));
-    }
-    words.join("; ")
 }

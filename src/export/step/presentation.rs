@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::part21::{Draft, Id, List, Quoted};
+use super::draft::Draft;
+use super::part21::{Id, List, Quoted};
 
 /// What is on layers, and what has colours.
 #[derive(Default)]

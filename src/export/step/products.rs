@@ -6,10 +6,10 @@
 
 use std::collections::HashMap;
 
-use super::Protocol;
-use super::document::{Content, Document, Node};
+use super::document::{Content, Document, Node, Protocol};
+use super::draft::Draft;
 use super::geometry::Geometry;
-use super::part21::{Draft, Id, List, Quoted};
+use super::part21::{Id, List, Quoted};
 use super::presentation::Presentation;
 use super::topology::Topology;
 use crate::assembly::kernel::BoundaryShape;

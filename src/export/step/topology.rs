@@ -6,8 +6,9 @@
 
 use std::collections::HashMap;
 
+use super::draft::Draft;
 use super::geometry::{Geometry, Side};
-use super::part21::{Draft, Id, List, Logical};
+use super::part21::{Id, List, Logical};
 use crate::assembly::kernel::{BoundaryUse, Shell};
 
 /// Curves on surfaces that an edge may name.

@@ -1,11 +1,10 @@
-//! The tree of parts that a model becomes.
+//! The tree of parts that a model becomes, with the colours and rock properties of their facies.
 
 use super::document::{Content, Node};
-use super::{color, description, facies_of};
 use crate::export::report::solid_names;
 use crate::export::text::ascii;
-use crate::model::Model;
 use crate::model::realisation::Realisation;
+use crate::model::{Facies, Model, Property};
 
 /// Builds the tree of parts: the background, then a node for each feature with several instances, and
 /// for each volume that has children.
@@ -110,4 +109,26 @@ impl Tree<'_> {
             )
         })
     }
+}
+
+pub(super) fn facies_of<'a>(model: &'a Model, name: &str) -> Option<&'a Facies> {
+    model.facies.iter().find(|facies| facies.name == name)
+}
+
+pub(super) fn color(facies: &Facies) -> [u8; 3] {
+    [facies.color.r, facies.color.g, facies.color.b]
+}
+
+/// `facies=sand; porosity=0.24; permeability_mD=600,600,120`.
+fn description(facies: &Facies) -> String {
+    let mut words = vec![format!("facies={}", ascii(&facies.name))];
+    for (name, property) in &facies.properties {
+        let unit = if name == "permeability" { "_mD" } else { "" };
+        let value = match property {
+            Property::Scalar(value) => value.to_string(),
+            Property::Vector(values) => values.map(|value| value.to_string()).join(","),
+        };
+        words.push(format!("{}{unit}={value}", ascii(name)));
+    }
+    words.join("; ")
 }
