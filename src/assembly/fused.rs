@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use super::closed;
+use super::failure::{AssemblyError, Failed};
 use super::kernel::{self, Bound, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids, Topology};
+use super::options::{Engine, Options};
 use super::shapes::{self, Cut};
 use super::sides::{self, SideError};
 use super::worker::{self, WorkerError};
-use super::{AssemblyError, Engine, Failed, Options};
 use crate::features::body::Body;
 use crate::model::plan::{AssemblyPlan, PlannedBody, PlannedShell};
 

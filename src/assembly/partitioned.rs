@@ -6,20 +6,20 @@ mod tables;
 
 use glam::DVec3;
 
-use regions::regions;
+use regions::{RegionError, regions};
 use relations::Relations;
 use tables::tables;
 
+use super::contacts;
+use super::failure::{AssemblyError, Failed};
 use super::kernel::{Cancel, FaceIntegral, Solids};
 use super::labels::Holders;
 use super::measure::{Counts, Measured};
+use super::options::{Engine, Options};
 use super::proof::{Check, Evidence};
 use super::splines::EXACT;
-use super::{AssemblyError, Engine, Failed, Options, contacts};
-use crate::features::body::TroughError;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
-use crate::nurbs::{self, enclosure::EnclosureError};
 use crate::partition::{self, Partition, PartitionError, Topology};
 
 /// How exactly curves are computed.
@@ -103,16 +103,13 @@ pub(super) fn attempt(
     }
 }
 
+/// Why there is no partition.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Trouble {
     #[error(transparent)]
     Partition(#[from] PartitionError),
-    #[error("a body cannot be cut off outside of the domain: {0}")]
-    Cut(#[from] TroughError),
-    #[error("the ends of a body cannot be closed: {0}")]
-    Ends(#[from] nurbs::SurfaceError),
-    #[error("a raised body is not closed: {0}")]
-    Raised(#[from] EnclosureError),
+    #[error(transparent)]
+    Region(#[from] RegionError),
     #[error(transparent)]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::Trouble;
 use crate::assembly::shapes;
 use crate::features::body::{Body, Role, Trough, TroughError};
 use crate::features::ellipsoid::Ellipsoid;
@@ -13,14 +12,28 @@ use crate::features::side::Side;
 use crate::model::Interior;
 use crate::model::owner::Owners;
 use crate::model::plan::{AssemblyPlan, PlannedShell};
-use crate::nurbs::{self, enclosure::Enclosure};
+use crate::nurbs::{
+    self,
+    enclosure::{Enclosure, EnclosureError},
+};
 use crate::partition::{Membership, Region};
 
 /// Sections of a trough kept beyond the last one whose span meets the domain.
 const OVERSHOOT: usize = 2;
 
+/// Why a body has no region.
+#[derive(Debug, thiserror::Error)]
+pub(in crate::assembly) enum RegionError {
+    #[error("a body cannot be cut off outside of the domain: {0}")]
+    Cut(#[from] TroughError),
+    #[error("the ends of a body cannot be closed: {0}")]
+    Ends(#[from] nurbs::SurfaceError),
+    #[error("a raised body is not closed: {0}")]
+    Raised(#[from] EnclosureError),
+}
+
 /// The block, the lids and the shells; then what bounds the domain in the block.
-pub(super) fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region>, Trouble> {
+pub(super) fn regions(plan: &AssemblyPlan, owners: &Owners) -> Result<Vec<Region>, RegionError> {
     let mut regions = vec![Region::Block {
         low: plan.low(),
         high: plan.high(),
@@ -58,8 +71,8 @@ fn region(
     owners: &Owners,
     index: usize,
     shell: &PlannedShell,
-) -> Result<Region, Trouble> {
-    let near = |trough: &Trough| -> Result<Vec<(Role, nurbs::Surface)>, Trouble> {
+) -> Result<Region, RegionError> {
+    let near = |trough: &Trough| -> Result<Vec<(Role, nurbs::Surface)>, RegionError> {
         let [first, last] = shapes::ends(trough, [plan.low(), plan.high()], OVERSHOOT);
         Ok(trough.between(first, last)?.sheets()?)
     };

@@ -19,9 +19,10 @@ mod tree;
 
 use glam::DVec3;
 
-use super::Options;
 use super::kernel::{BridgeError, Cancel, DOMAIN, Solids, Threads, defects};
 use super::measure::Measured;
+pub use super::options::Level;
+use super::options::Options;
 use crate::model::owner::Owners;
 use crate::model::plan::AssemblyPlan;
 use crate::partition::Topology;
@@ -39,33 +40,6 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 const NEAR: f64 = 1e-9;
 /// Relative error of the kernel's integrals.
 const KERNEL_VOLUME: f64 = 1e-6;
-/// How thorough the proof is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Level {
-    /// In every run: a point of each volume classified in the kernel's solids, at some 10 ms each.
-    #[default]
-    Fast,
-    /// 500 of them.
-    Full,
-}
-
-impl Level {
-    /// Its name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fast => "fast",
-            Self::Full => "full",
-        }
-    }
-
-    fn classified(self) -> usize {
-        match self {
-            Self::Fast => 1,
-            Self::Full => 500,
-        }
-    }
-}
-
 /// One statement of the proof.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Check {
