@@ -305,5 +305,4 @@ impl Rules {
 }
 
 #[cfg(test)]
-#[path = "rules_tests.rs"]
 mod tests;

@@ -221,5 +221,4 @@ fn strip_legend<'a>(page: &Page, swatches: &[&'a Swatch]) -> Result<Legend<'a>, 
 }
 
 #[cfg(test)]
-#[path = "view_tests.rs"]
 mod tests;
