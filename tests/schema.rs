@@ -8,9 +8,13 @@
 
 #[path = "assembled/checked.rs"]
 mod checked;
+#[path = "assembled/underlined.rs"]
+mod underlined;
 
 use clinothem::model::{Format, Model, Source, schema};
 use serde_json::Value;
+
+use underlined::underlined;
 
 const GOOD: &str = include_str!("bad_models/good.toml");
 
@@ -214,25 +218,13 @@ const POINTED: &[(&str, &str, &str, &str)] = &[
     (SHOREFACE, "width = 120", "widht = 120", "/feature/2/belts/1/widht"),
 ];
 
-/// Where a validator says that a text is wrong, each place once.
-fn places(text: &str) -> Vec<String> {
-    let validator = jsonschema::validator_for(&schema()).unwrap();
-    let mut places: Vec<String> = validator
-        .iter_errors(&as_json(text))
-        .map(|error| error.instance_path().to_string())
-        .collect();
-    places.sort();
-    places.dedup();
-    places
-}
-
 #[test]
 fn a_validator_points_at_the_wrong_key_or_value_and_at_nothing_else() {
     // Editors underline what a validator points at.
     for &(good, find, replace, place) in POINTED {
         assert!(good.contains(find), "{find}");
         assert_eq!(
-            places(&good.replacen(find, replace, 1)),
+            underlined(&good.replacen(find, replace, 1)),
             [place],
             "{replace}"
         );
@@ -248,7 +240,7 @@ fn of_several_slips_each_has_its_own_place_in_schema_and_program_alike() {
         ("/feature/0/trajectory/amplitud", "amplitud"),
         ("/feature/0/widht", "widht"),
     ];
-    assert_eq!(places(SLIPS), expected.map(|(place, _)| place));
+    assert_eq!(underlined(SLIPS), expected.map(|(place, _)| place));
     let source = Source::from_text("slips.toml", SLIPS, Format::Toml);
     let found = Model::check(&source).unwrap_err().to_json();
     let lines: Vec<u64> = found["defects"]

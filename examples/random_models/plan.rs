@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 use toml::{Table, Value};
 
+use crate::models::number;
+
 /// Nodes and weights of Gauss's rule with three points on [0, 1]: exact for what is bicubic.
 const GAUSS: [(f64, f64); 3] = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
@@ -334,16 +336,6 @@ fn bent_along_x(values: &[f64], [nx, ny]: [usize; 2], step: f64) -> Vec<f64> {
         }
     }
     found
-}
-
-#[allow(
-    clippy::cast_precision_loss,
-    reason = "whole numbers of a model are small"
-)]
-fn number(value: &Value) -> Option<f64> {
-    value
-        .as_float()
-        .or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 fn numbers(value: Option<&Value>) -> Result<Vec<f64>, String> {

@@ -17,6 +17,8 @@ use crate::partition::Doubt;
 
 /// Points of a sheet in u and v.
 const OF_SHEET: usize = 48;
+/// Points along an end of a clinoform.
+const OF_END: u32 = 33;
 /// So many of them near something are more than a curve at an angle has.
 const MANY: usize = 24;
 /// What counts as near, as a fraction of the domain's diagonal; then how near, in tenths of that.
@@ -72,6 +74,16 @@ pub struct Contact {
     pub what: &'static str,
 }
 
+impl Party {
+    /// What it is, if it is a body.
+    fn kind(&self) -> Option<Kind> {
+        match self {
+            Self::Body { kind, .. } => Some(*kind),
+            Self::Domain(_) => None,
+        }
+    }
+}
+
 impl fmt::Display for Party {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -105,10 +117,7 @@ impl fmt::Display for Contact {
 impl Contact {
     /// What to change.
     fn remedy(&self) -> String {
-        let kinds = self.parties.each_ref().map(|party| match party {
-            Party::Body { kind, .. } => Some(*kind),
-            Party::Domain(_) => None,
-        });
+        let kinds = self.parties.each_ref().map(Party::kind);
         let younger = &self.parties[1];
         let more = length((100.0 * self.gap).max(1e-5 * (self.high - self.low).length()));
         match kinds {
@@ -263,21 +272,22 @@ pub(super) fn search(plan: &AssemblyPlan, owners: &Owners, volumes: &[usize]) ->
         .collect();
     let along = |[older, younger]: [usize; 2]| {
         let parties = [older, younger].map(|at| body_party(plan, bodies[at].0));
-        // The sheets of a set meet where they are meant to.
-        let clinoform = |party: &Party| {
-            matches!(
-                party,
-                Party::Body {
-                    kind: Kind::Clinoform,
-                    ..
-                }
-            )
+        let reach = NEAR * diagonal;
+        let on = |horizon: usize, clinoform: usize| {
+            let interior = owners.interior(bodies[horizon].0);
+            ends_on(&bodies[clinoform].1.body, &|p| interior.is_near(p, reach))
         };
-        if parties.iter().all(clinoform) {
+        // The sheets of a set meet where they are meant to, and so they meet the base and the top of their unit.
+        let is_meant = match parties.each_ref().map(Party::kind) {
+            [Some(Kind::Clinoform), Some(Kind::Clinoform)] => true,
+            [Some(Kind::Horizon), Some(Kind::Clinoform)] => on(older, younger),
+            [Some(Kind::Clinoform), Some(Kind::Horizon)] => on(younger, older),
+            _ => false,
+        };
+        if is_meant {
             return None;
         }
         let interior = owners.interior(bodies[older].0);
-        let reach = NEAR * diagonal;
         let (low, high) = interior.bounds();
         let within = |p: DVec3| p.cmpge(low - reach).all() && p.cmple(high + reach).all();
         let near = |p: DVec3, distance: f64| within(p) && interior.is_near(p, distance);
@@ -291,6 +301,9 @@ pub(super) fn search(plan: &AssemblyPlan, owners: &Owners, volumes: &[usize]) ->
                 continue;
             }
             let near = |p: DVec3, distance: f64| face.distance(p) <= distance;
+            if face.axis == 2 && ends_on(&shell.body, &|p| near(p, NEAR * diagonal)) {
+                continue;
+            }
             if let Some(along) = Along::of(points, NEAR * diagonal, &near) {
                 let parties = [Party::Domain(face.name), body_party(plan, *volume)];
                 found.push((parties, along));
@@ -308,6 +321,19 @@ pub(super) fn search(plan: &AssemblyPlan, owners: &Owners, volumes: &[usize]) ->
             what: "run along each other",
         })
         .collect()
+}
+
+/// Whether a body is a clinoform all of whose upper or lower end is near something: the top or the base of its unit, which
+/// it is meant to meet, however small the angle.
+fn ends_on(body: &Body, near: &dyn Fn(DVec3) -> bool) -> bool {
+    let Body::Side(side) = body else {
+        return false;
+    };
+    let Side::Clinoform(sheet) = &**side else {
+        return false;
+    };
+    let ends = sheet.ends(OF_END);
+    ends.iter().any(|end| end.iter().all(|point| near(*point)))
 }
 
 /// Points of a body that are near something.

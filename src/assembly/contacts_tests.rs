@@ -69,6 +69,43 @@ fn a_bank_along_a_wall_of_the_domain_is_told_with_that_wall() {
     assert_eq!(names(&all[0]), ["the domain's north wall", "a"]);
 }
 
+/// Clinoforms that are tangent to the base of their unit, which lies on another horizon or is the domain's own.
+fn clinoforms(id: &str, within: &str) -> String {
+    format!(
+        "[[feature]]\nid = \"{id}\"\nkind = \"clinoforms\"\nfacies = \"mud\"\n{within}azimuth_deg = 70\nfirst = 80\n\
+         spacing = 60\nlength = 250\n"
+    )
+}
+
+#[test]
+fn clinoforms_that_meet_the_base_and_the_top_of_their_unit_are_not_blamed_for_that() {
+    let way = ([-50.0, 150.0], [450.0, 150.0]);
+    let horizon = |id: &str, level: f64| {
+        format!(
+            "[[feature]]\nid = \"{id}\"\nkind = \"horizon\"\nfacies = \"mud\"\nsurface = {{ level = {level} }}\n"
+        )
+    };
+    let within = "parent = \"lower\"\ntop = \"upper\"\n";
+    let mut features = vec![
+        horizon("lower", -18.0),
+        horizon("upper", -12.0),
+        clinoforms("set", within),
+        channel("a", -4.0, way.0, way.1),
+        channel("b", -4.001, way.0, way.1),
+    ];
+    let said = |features: &[String]| found(features).iter().map(names).collect::<Vec<_>>();
+    assert_eq!(said(&features), [["a", "b"]]);
+    // Nor where the domain's base and top are those of the unit.
+    assert_eq!(said(&[clinoforms("set", "")]), [[""; 2]; 0]);
+    // Another horizon, which happens to run along their lower ends, is.
+    features.insert(2, horizon("stray", -17.999));
+    assert!(
+        said(&features)
+            .iter()
+            .any(|names| names[0].contains("lower"))
+    );
+}
+
 #[test]
 fn a_doubt_of_the_partition_is_told_by_what_its_regions_stand_for() {
     let way = ([-50.0, 150.0], [450.0, 150.0]);

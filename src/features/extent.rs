@@ -21,6 +21,9 @@ use super::thickness::{self, NoThickness};
 use crate::nurbs::quadrature::{self, EIGHT, FIVE, Rule, THREE};
 use crate::nurbs::{KnotVector, RefineError, Surface};
 
+/// Two levels are the same within this fraction of the domain's size: far below any geology, far
+/// above rounding.
+const SAME_LEVEL: f64 = 1e-9;
 /// By how much two rules may differ on a part of a patch, as a share of its area: a tenth of what the proof allows.
 const AREA: f64 = 1e-9;
 /// How often patches are quartered at most.
@@ -141,6 +144,11 @@ impl Extent {
     /// The block's upper corner; a level top is its upper side.
     pub fn high(&self) -> DVec3 {
         self.high
+    }
+
+    /// Two elevations nearer to each other than this (m) are the same.
+    pub fn same_level(&self) -> f64 {
+        SAME_LEVEL * (self.high - self.low).max_element()
     }
 
     /// The base and the top, where they are not level.

@@ -272,6 +272,12 @@ impl Horizon {
         }
     }
 
+    /// The height of the plane below its lattices at a place (m).
+    pub fn height_of_plane(&self, x: f64, y: f64) -> f64 {
+        let (through, slope) = self.trend();
+        through.z + slope.dot(DVec2::new(x, y) - through.xy())
+    }
+
     /// The elevation, if the horizon is level (m).
     pub fn level(&self) -> Option<f64> {
         match self.shape {

@@ -3,6 +3,7 @@
 //! This layer knows numbers, not model files: every parameter is sampled already. It knows no rules
 //! either: what removes what is decided in [`crate::model`].
 
+pub mod between;
 pub mod body;
 pub mod boundary;
 pub mod channel;

@@ -98,6 +98,22 @@ impl Nodes {
         off.iter().fold(0.0, |most, off| most.max(off.abs()))
     }
 
+    /// These and others between them, so that all are no farther from each other than a spacing (m), or as many as are not too
+    /// many.
+    #[must_use]
+    pub fn as_fine_as(&self, spacing: f64) -> Self {
+        let mut nodes = *self;
+        loop {
+            let step = (nodes.high - nodes.low) / DVec2::from(nodes.counts.map(|n| (n - 1) as f64));
+            let finer = nodes.finer(2);
+            let is_fine = step.max_element() <= spacing;
+            if is_fine || finer.counts.iter().product::<usize>() > MOST_NODES {
+                return nodes;
+            }
+            nodes = finer;
+        }
+    }
+
     fn finer(&self, times: usize) -> Self {
         Self {
             counts: self.counts.map(|count| (count - 1) * times + 1),

@@ -23,10 +23,6 @@ use crate::features::body::{Body, Trough, TroughError};
 use crate::features::extent::Extent;
 use crate::features::side::Side;
 
-/// Two levels are the same within this fraction of the domain's size: far below any geology, far
-/// above rounding.
-const SAME_LEVEL: f64 = 1e-9;
-
 /// What the kernel has to assemble.
 #[derive(Clone, Debug)]
 pub struct AssemblyPlan {
@@ -190,7 +186,7 @@ impl AssemblyPlan {
 
     /// Two elevations nearer to each other than this (m) are the same.
     pub(crate) fn same_level(&self) -> f64 {
-        SAME_LEVEL * (self.high() - self.low()).max_element()
+        self.extent.same_level()
     }
 
     /// What an instance holds of the domain; `None`, with a note, if it takes no part.

@@ -154,7 +154,7 @@ impl Realisation {
             let apart = Apart {
                 step,
                 levels: &levels,
-                same: SAME_LEVEL * (model.domain.z[1] - model.domain.z[0]),
+                same: extent.same_level(),
             };
             apart.move_bodies(&mut instances, &volumes)?;
         }
@@ -185,9 +185,6 @@ impl Realisation {
         self.volumes.iter().position(|volume| volume.name == name)
     }
 }
-
-/// Two levels are the same within this fraction of the domain's height.
-const SAME_LEVEL: f64 = 1e-9;
 
 /// How bodies come apart whose contacts coincide.
 struct Apart<'a> {

@@ -199,6 +199,15 @@ impl Lattice {
         sum
     }
 
+    /// The Bernstein coefficients of the function on the cell between node i along x and j along y and the next ones: along x,
+    /// then along y.
+    pub fn cell(&self, [i, j]: [usize; 2]) -> [[f64; 4]; 4] {
+        let [nx, ny] = self.counts;
+        let along_y = |i: usize| bernstein(|j| self.coefficients[i * ny + j], ny, j);
+        let columns = [0, 1, 2, 3].map(|b| bernstein(|i| along_y(i)[b], nx, i));
+        [0, 1, 2, 3].map(|a| columns.map(|column| column[a]))
+    }
+
     /// The first and the last node.
     pub fn corners(&self) -> (DVec2, DVec2) {
         (self.low, self.high)
@@ -336,6 +345,26 @@ impl Weights {
     fn add(&mut self, node: usize, value: f64) {
         self.values[node - self.first] += value;
     }
+}
+
+/// Bernstein coefficients between a node and the next one along an axis; beyond the ends coefficients go on evenly.
+fn bernstein(coefficient: impl Fn(usize) -> f64, count: usize, node: usize) -> [f64; 4] {
+    let (b, c) = (coefficient(node), coefficient(node + 1));
+    let a = match node.checked_sub(1) {
+        Some(before) => coefficient(before),
+        None => 2.0 * b - c,
+    };
+    let d = if node + 2 < count {
+        coefficient(node + 2)
+    } else {
+        2.0 * c - b
+    };
+    [
+        (a + 4.0 * b + c) / 6.0,
+        (2.0 * b + c) / 3.0,
+        (b + 2.0 * c) / 3.0,
+        (b + 4.0 * c + d) / 6.0,
+    ]
 }
 
 fn check_extent(low: DVec2, high: DVec2) -> Result<(), LatticeError> {

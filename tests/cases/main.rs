@@ -10,9 +10,12 @@
 mod contacts;
 mod isochores;
 mod newcomer;
+mod points;
 mod real_data;
 mod section;
 mod spline;
+#[path = "../assembled/underlined.rs"]
+mod underlined;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

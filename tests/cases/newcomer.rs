@@ -1,10 +1,10 @@
 //! What somebody writes who has not read the manual: each mistake is said with its place and its remedy, and what is no
 //! mistake works.
 
-use clinothem::model::schema;
 use resvg::tiny_skia::Pixmap;
 use serde_json::Value;
 
+use super::underlined::underlined;
 use super::{Report, run, text};
 
 /// Standard output and standard error of a command that ends with an exit code.
@@ -38,19 +38,6 @@ fn defects(name: &str) -> Vec<(String, usize, String)> {
         )
     });
     defects.collect()
-}
-
-/// Where a validator says that a case is wrong by the published schema: what editors underline.
-fn underlined(name: &str) -> Vec<String> {
-    let model: toml::Value = toml::from_str(&text("newcomer", name)).unwrap();
-    let validator = jsonschema::validator_for(&schema()).unwrap();
-    let mut places: Vec<String> = validator
-        .iter_errors(&serde_json::to_value(model).unwrap())
-        .map(|error| error.instance_path().to_string())
-        .collect();
-    places.sort();
-    places.dedup();
-    places
 }
 
 #[test]
@@ -114,7 +101,10 @@ fn a_permeability_that_is_no_number_is_a_defect_where_it_stands() {
         for command in ["check", "build"] {
             assert_says(&said(command, name, &[], 1), &[remedy]);
         }
-        assert_eq!(underlined(name), [format!("/{}", path.replace('.', "/"))]);
+        assert_eq!(
+            underlined(&text("newcomer", name)),
+            [format!("/{}", path.replace('.', "/"))]
+        );
     }
 }
 
@@ -170,7 +160,7 @@ fn a_section_or_a_map_beside_the_domain_is_an_error_and_no_blank_picture() {
 #[test]
 fn editors_underline_every_wrong_key_and_value_and_nothing_around_it() {
     assert_eq!(
-        underlined("bad1"),
+        underlined(&text("newcomer", "bad1")),
         [
             "/facies/mud/colour",
             "/facies/mud/permeability",
@@ -180,7 +170,7 @@ fn editors_underline_every_wrong_key_and_value_and_nothing_around_it() {
         ]
     );
     assert_eq!(
-        underlined("bad2"),
+        underlined(&text("newcomer", "bad2")),
         ["/facies/mud/permeability", "/feature/0/kind"]
     );
 }

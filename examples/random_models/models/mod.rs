@@ -15,6 +15,7 @@ use std::str::FromStr;
 use toml::Table;
 
 use draws::Draws;
+pub use tables::number;
 pub use ways::{Way, changed};
 
 /// What models are made to be hard for.

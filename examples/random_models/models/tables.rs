@@ -93,3 +93,14 @@ pub(super) fn model(domain: Table, features: Vec<Table>) -> Table {
         ("feature", features.into()),
     ])
 }
+
+/// A value that is a number, whole or not.
+#[allow(
+    clippy::cast_precision_loss,
+    reason = "whole numbers of a model are small"
+)]
+pub fn number(value: &Value) -> Option<f64> {
+    value
+        .as_float()
+        .or_else(|| value.as_integer().map(|whole| whole as f64))
+}

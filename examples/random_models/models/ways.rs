@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use toml::{Table, Value};
 
-use super::tables::set;
+use super::tables::{number, set};
 
 /// How a plain model is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -284,14 +284,4 @@ fn each(value: &mut Value, change: &impl Fn(f64) -> f64) {
             each(value, change);
         }
     }
-}
-
-#[allow(
-    clippy::cast_precision_loss,
-    reason = "whole numbers of a model are small"
-)]
-fn number(value: &Value) -> Option<f64> {
-    value
-        .as_float()
-        .or_else(|| value.as_integer().map(|whole| whole as f64))
 }

@@ -136,6 +136,17 @@ impl Clinoform {
             .then(|| self.surface.point(u, v).z)
     }
 
+    /// Points evenly along strike where the sheet leaves the top of its unit, and where it reaches the base.
+    pub fn ends(&self, count: u32) -> [Vec<DVec3>; 2] {
+        let along = |u: f64| {
+            (0..count).map(move |k| {
+                let v = f64::from(k) / f64::from(count - 1);
+                self.surface.point(u, v)
+            })
+        };
+        [along(0.0).collect(), along(1.0).collect()]
+    }
+
     /// Whether the sheet meets its base at no angle, as without a toe.
     pub fn is_tangent_to_base(&self) -> bool {
         let height = |u: f64| self.surface.point(u, 0.5).z;

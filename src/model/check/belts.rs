@@ -1,10 +1,10 @@
 //! Facies belts of clinoform sets.
 
 use super::Checker;
+use super::facies::is_id;
 use super::family::Family;
 use super::feature::Draft;
 use super::quantity::{Limits, NOT_NEGATIVE, POSITIVE, quantity};
-use super::rock::is_id;
 use crate::model::defects::Defect;
 use crate::model::file::BeltFile;
 use crate::model::quantity::Quantity;

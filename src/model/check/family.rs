@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use super::Checker;
 use super::clinoforms::MOST_SHEETS;
+use super::facies::FaciesList;
 use super::feature::{DEEPEST_LEVEL, Draft, RESERVED};
-use super::rock::FaciesList;
 use crate::model::defects::Defect;
 use crate::model::suggest;
 use crate::model::tree::quoted;

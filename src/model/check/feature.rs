@@ -1,8 +1,8 @@
 //! The list of features: ids, parents, levels, counts; what a feature is goes by its kind.
 
 use super::Checker;
+use super::facies::{FaciesList, is_id};
 use super::family::{Family, first_of_each_id};
-use super::rock::{FaciesList, is_id};
 use crate::model::file::FeatureFile;
 use crate::model::read::{Any, Field};
 use crate::model::spec::{Domain, Feature, FeatureKind};

@@ -3,14 +3,15 @@
 mod belts;
 mod channel;
 mod clinoforms;
+mod domain;
 mod ellipsoid;
+mod facies;
 mod family;
 mod feature;
 mod heights;
 mod horizon;
 mod isochore;
 mod quantity;
-mod rock;
 mod selector;
 mod surface;
 mod trajectory;

@@ -2,7 +2,10 @@
 
 use glam::DVec2;
 
-use super::{Change, Deciding};
+use super::change::Change;
+use super::deciding::Deciding;
+use crate::features::between::thinner;
+use crate::features::horizon::Horizon;
 use crate::features::pinch_out::{Absence, Nodes};
 
 impl Deciding<'_> {
@@ -34,10 +37,48 @@ impl Deciding<'_> {
         self.tell_extent(&words, &change.nodes, &change.thickness, &change.absence);
     }
 
-    fn tell_extent(&mut self, words: &str, nodes: &Nodes, thickness: &[f64], absence: &Absence) {
+    /// Says where the bed between two layers is thinner between the nodes of a grid than it may be, though it is not at them.
+    pub(super) fn tell_thinner(
+        &mut self,
+        older: usize,
+        younger: usize,
+        bed: &Horizon,
+        nodes: &Nodes,
+        absence: &Absence,
+    ) {
+        let Some(found) = thinner(bed, nodes, absence, self.least, self.plan()) else {
+            return;
+        };
+        let name = |at: usize| self.layers[at].name.as_str();
+        let does = if found.thickness <= 0.0 {
+            "the two surfaces cross there"
+        } else {
+            "it is there all the same"
+        };
+        self.decisions.push(format!(
+            "the bed between {} and {} is thicker than {:.2e} m at the nodes of its grid, and swings down to {:.2e} m between \
+             them, in {} cell{} within x from {} to {}, y from {} to {}; {does}",
+            name(older),
+            name(younger),
+            self.least,
+            found.thickness,
+            found.cells,
+            if found.cells == 1 { "" } else { "s" },
+            tidy(found.low.x),
+            tidy(found.high.x),
+            tidy(found.low.y),
+            tidy(found.high.y),
+        ));
+    }
+
+    /// The plan of the domain.
+    fn plan(&self) -> [DVec2; 2] {
         let [x, y] = [self.model.domain.x, self.model.domain.y];
-        let plan = [0, 1].map(|i| DVec2::new(x[i], y[i]));
-        let extent = absence.extent(nodes, thickness, plan);
+        [0, 1].map(|i| DVec2::new(x[i], y[i]))
+    }
+
+    fn tell_extent(&mut self, words: &str, nodes: &Nodes, thickness: &[f64], absence: &Absence) {
+        let extent = absence.extent(nodes, thickness, self.plan());
         if !(extent.area > 0.0) {
             return;
         }
