@@ -1,16 +1,18 @@
 //! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
 //!
-//! A pair of patches whose normals have no direction in common crosses in simple arcs, one behind the other: a loop, or two
-//! side by side, would need parallel normals somewhere. So one place on an arc is enough where it is alone ([`Chords`]); else the
-//! halves are asked. An attempt to land on it that fails says nothing either: the arc may be far from where it is looked for.
+//! Where a parameter grows along all chords of two patches they cross in simple arcs, one behind the other; so one place on an arc is
+//! enough where it is alone ([`Chords`]). Else the halves are asked: an attempt to land on a curve that fails says nothing, the
+//! arc may be far from where it is looked for. What is neither apart nor known when it is small is counted.
 
 use glam::DVec3;
 
 use super::alone::{BORDER, Chords};
 use super::bounds::Bounds;
+use super::check::Doubt;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
-use super::pair::{Closing, PARALLEL, Pair, Step, lies};
+use super::linear::{self, Guess};
+use super::pair::{Closing, PARALLEL, Pair, lies};
 use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 
@@ -28,13 +30,14 @@ const FLAT: f64 = 0.35;
 const BESIDE: f64 = 0.02;
 /// An attempt to land is given up when it leaves the patches by this fraction of their size.
 const REACH: f64 = 0.5;
+/// Doubtful places nearer than this fraction of the domain's size are one.
+const BESIDE_DOUBTS: f64 = 1e-3;
 /// While patches are halved their sizes are kept within this factor.
 const RATIO: f64 = 4.0;
 
 /// Looks for places where two sheets cross, and hands each to `found`, which returns the branch through it.
 pub(super) struct Search<'a, F> {
     pub(super) pair: Pair<'a>,
-    pub(super) clip: Bounds,
     /// What is halved: the sheets, or splines of them lifted.
     shapes: [&'a Sheet; 2],
     /// Where these may be.
@@ -51,8 +54,10 @@ pub(super) struct Search<'a, F> {
     pub(super) undecided: usize,
     /// Pairs of patches with a curve that is alone there.
     pub(super) certain: usize,
-    /// Smallest pairs of patches with a curve where another one is not excluded.
+    /// Smallest pairs of patches where a curve may be missed.
     pub(super) uncertain: usize,
+    /// And where that is.
+    pub(super) doubts: Vec<Doubt>,
     halvings: usize,
 }
 
@@ -63,6 +68,18 @@ enum Landing {
     On(usize, f64),
     /// On a curve that cannot be followed.
     Lost,
+}
+
+/// What is known of two patches.
+enum Verdict {
+    /// They have nothing in common.
+    Apart,
+    /// All that they have in common.
+    Known,
+    /// They may have more in common than a curve that was found, or something where none was.
+    Doubtful,
+    /// Curves in them may be loops, or lie side by side.
+    Open,
 }
 
 impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
@@ -79,7 +96,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             around: lifted.map_or(clip, |lifted| lifted.around(&clip)),
             slack: pair.tolerances.curve + lifted.map_or(0.0, |lifted| lifted.slack()),
             pair,
-            clip,
             branches,
             found,
             matters,
@@ -87,6 +103,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             undecided: 0,
             certain: 0,
             uncertain: 0,
+            doubts: Vec::new(),
             halvings: 0,
         }
     }
@@ -133,46 +150,38 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST || self.undecided >= ENOUGH {
+        if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
-        let (clip, around) = (self.clip, self.around);
-        let flat = a.lean() < FLAT && b.lean() < FLAT;
+        let around = self.around;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
-        // Where boxes and slabs overlap they may still be apart along the line of their planes.
-        if flat && a.is_past(b, self.slack) {
-            return;
-        }
-        if flat && a.is_askew(b) {
-            let landing = self.land(a, b, |_| true);
-            // A curve that passes beside the smallest patches passes through what is around them.
-            let around = if is_small { BESIDE } else { BORDER };
-            let is_done = landing.is_some_and(|landing| self.is_all(a, b, landing, around));
-            if is_done {
-                self.certain += 1;
-                return;
-            }
-            if is_small {
-                let [u, v] = a.patch.middle();
-                let counts = landing.is_some() && (self.matters)(a.patch.point(u, v));
-                self.uncertain += usize::from(counts);
-                return;
-            }
-        } else {
-            if flat && a.leans_from(b) && self.land(a, b, |node| clip.holds(node.point())).is_some()
-            {
-                return;
-            }
-            if is_small {
-                if self.land(a, b, |_| true).is_none() && !self.passes_by(a, b) {
-                    let [u, v] = a.patch.middle();
-                    let point = self.pair.sheets[0].point(u, v);
-                    self.undecided += usize::from((self.matters)(point));
+        // A curve that passes beside the smallest patches passes through what is around them.
+        let beside = if is_small { BESIDE } else { BORDER };
+        if a.lean() < FLAT && b.lean() < FLAT {
+            match self.flat(a, b, beside) {
+                Verdict::Apart | Verdict::Known => return,
+                Verdict::Doubtful if is_small => {
+                    self.doubt(a);
+                    return;
                 }
-                return;
+                Verdict::Doubtful | Verdict::Open => {}
             }
+        }
+        if is_small {
+            if self
+                .land(a, b, linear::guess(&a.patch, &b.patch, BESIDE))
+                .is_none()
+                && !self.passes_by(a, b)
+            {
+                let [u, v] = a.patch.middle();
+                let point = self.pair.sheets[0].point(u, v);
+                self.undecided += usize::from((self.matters)(point));
+            } else {
+                self.doubt(a);
+            }
+            return;
         }
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
         let too_small = size_a < least || size_b < least;
@@ -199,24 +208,59 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         );
     }
 
-    /// Whether the curve that an attempt has landed on is all that two patches have in common.
-    fn is_all(&self, a: &Facet<'_>, b: &Facet<'_>, landing: Landing, around: f64) -> bool {
-        match landing {
-            Landing::Lost => true,
-            Landing::On(branch, t) => {
-                let branch = &self.branches[branch];
-                Chords::new(a, b, around).is_some_and(|chords| chords.has_only(branch, t))
+    /// What is known of two nearly flat patches.
+    fn flat(&mut self, a: &Facet<'_>, b: &Facet<'_>, beside: f64) -> Verdict {
+        let guess = linear::guess(&a.patch, &b.patch, BESIDE);
+        if let Guess::Apart(along) = guess {
+            // Where boxes and slabs overlap they may still be apart another way.
+            let [own, others] = [a, b].map(|facet| facet.patch.range_along(along));
+            let slack = self.slack * along.length();
+            if own[0] > others[1] + slack || others[0] > own[1] + slack {
+                return Verdict::Apart;
             }
+        }
+        let by_cones = Chords::new(a, b, beside);
+        let by_slopes = by_cones.is_none().then(|| Chords::of_slopes(a, b, beside));
+        let Some(chords) = by_cones.or(by_slopes.flatten()) else {
+            return Verdict::Open;
+        };
+        let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
+        match self.land(a, b, guess) {
+            Some(Landing::On(branch, t)) if chords.has_only(&self.branches[branch], t, lengths) => {
+                self.certain += 1;
+                Verdict::Known
+            }
+            // Where curves cannot be followed the model is refused.
+            Some(Landing::Lost) if self.undecided > 0 => Verdict::Known,
+            _ => Verdict::Doubtful,
         }
     }
 
-    /// Tries to land on the curve between two patches: on a known one, or on a new one that is wanted.
-    fn land(
-        &mut self,
-        a: &Facet<'_>,
-        b: &Facet<'_>,
-        wanted: impl Fn(&Node) -> bool,
-    ) -> Option<Landing> {
+    /// Counts a pair of the smallest patches of which not all is known.
+    fn doubt(&mut self, a: &Facet<'_>) {
+        let [u, v] = a.patch.middle();
+        if !(self.matters)(a.patch.point(u, v)) {
+            return;
+        }
+        self.uncertain += 1;
+        let bounds = a.patch.bounds;
+        let doubt = Doubt {
+            regions: self.pair.sheets.map(|sheet| sheet.region),
+            low: bounds.low,
+            high: bounds.high,
+            gap: bounds.extent(),
+            what: "may touch or cross once more",
+        };
+        let reach = BESIDE_DOUBTS * self.pair.tolerances.scale;
+        let mut known = self.doubts.iter_mut();
+        match known.find(|known| known.is_beside(&doubt, reach)) {
+            Some(known) => known.join(&doubt),
+            None => self.doubts.push(doubt),
+        }
+    }
+
+    /// Tries to land on the curve between two patches: on a known one, or on a new one.
+    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>, guess: Guess) -> Option<Landing> {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
         let within = grown(BESIDE);
@@ -232,28 +276,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if let Some(landing) = self.branches.iter().enumerate().find_map(known) {
             return Some(landing);
         }
-        // From the middle of the smaller patch, and the place on the larger one that is nearest to it.
-        let a_is_smaller = a.patch.bounds.extent() <= b.patch.bounds.extent();
-        let (small, large) = if a_is_smaller { (a, b) } else { (b, a) };
-        let [u, v] = small.patch.middle();
-        let small = small.patch.first_jet(u, v);
-        let [s, t] = nearest(&large.patch, small.0);
-        let large = large.patch.first_jet(s, t);
-        let normals = [small, large].map(|(_, u, v)| u.cross(v));
-        let tangent = normals[0].cross(normals[1]).try_normalize()?;
-        let (mut q, jets) = if a_is_smaller {
-            ([u, v, s, t], [small, large])
-        } else {
-            ([s, t, u, v], [large, small])
+        let Guess::Meet(mut q, tangent, point) = guess else {
+            return None;
         };
-        let closing = Closing::Plane(tangent, small.0);
-        let around = grown(REACH);
-        // Most attempts end with the first step, for which both patches are known.
-        let step = Step::new(&jets, &q, closing)?;
-        step.apply(&mut q);
-        let landed = lies(&q, &around)
-            && self.pair.newton_within(&mut q, closing, 10, &around)
-            && lies(&q, &within);
+        let closing = Closing::Plane(tangent, point);
+        let landed =
+            self.pair.newton_within(&mut q, closing, 10, &grown(REACH)) && lies(&q, &within);
         if !landed {
             return None;
         }
@@ -264,9 +292,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let node = self.pair.node(q, None)?;
         if let Some(landing) = self.traced(&node) {
             return Some(landing);
-        }
-        if !wanted(&node) {
-            return None;
         }
         let Some(branch) = (self.found)(node) else {
             // A point of a curve that cannot be followed.
@@ -305,8 +330,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let near = (6.0 * self.pair.tolerances.curve / node.sine.max(PARALLEL))
             .max(1e2 * self.pair.tolerances.curve);
         let passes = |(at, branch): (usize, &Branch)| {
-            let (t, distance) = branch.project(node.point());
-            (distance < near).then_some(Landing::On(at, t))
+            let (t, _) = branch.nearest(node.point(), near)?;
+            Some(Landing::On(at, t))
         };
         self.branches.iter().enumerate().find_map(passes)
     }
@@ -321,24 +346,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 fn grow(low: f64, high: f64, by: f64) -> [f64; 2] {
     let slack = by * (high - low);
     [low - slack, high + slack]
-}
-
-/// About where a nearly flat patch is nearest to a point.
-fn nearest(patch: &Patch, point: DVec3) -> [f64; 2] {
-    let [mut u, mut v] = patch.middle();
-    for _ in 0..2 {
-        let (p, pu, pv) = patch.first_jet(u, v);
-        let offset = point - p;
-        let (uu, uv, vv) = (pu.dot(pu), pu.dot(pv), pv.dot(pv));
-        let determinant = uu * vv - uv * uv;
-        if !(determinant > 0.0) {
-            break;
-        }
-        let (ru, rv) = (offset.dot(pu), offset.dot(pv));
-        u = (u + (vv * ru - uv * rv) / determinant).clamp(patch.u[0], patch.u[1]);
-        v = (v + (uu * rv - uv * ru) / determinant).clamp(patch.v[0], patch.v[1]);
-    }
-    [u, v]
 }
 
 /// Whether the parameters of patches overlap or touch.
