@@ -53,8 +53,13 @@ impl Chords {
     }
 
     /// The same by slopes: for sheets that are nearly parallel.
-    pub(super) fn of_slopes(a: &Facet<'_>, b: &Facet<'_>, slack: f64) -> Option<Self> {
-        let is_monotone = by_slopes([a, b], slack)?;
+    pub(super) fn of_slopes(
+        frame: &Frame,
+        a: &Facet<'_>,
+        b: &Facet<'_>,
+        slack: f64,
+    ) -> Option<Self> {
+        let is_monotone = by_slopes(frame, [a, b], slack)?;
         Self::with(is_monotone, [a, b], slack)
     }
 
@@ -214,17 +219,32 @@ fn by_cones(facets: [&Facet<'_>; 2], slack: f64) -> [bool; 4] {
     })
 }
 
-fn by_slopes(facets: [&Facet<'_>; 2], slack: f64) -> Option<[bool; 4]> {
-    let [(a, _), (b, _)] = [facets[0].cones.normals?, facets[1].cones.normals?];
-    let b = if a.dot(b) < 0.0 { -b } else { b };
-    let (upright, along) = ((a + b).try_normalize()?, (a - b).try_normalize()?);
-    let across = upright.cross(along);
-    // Of most pairs the corners tell that it is no use.
-    let [own, other] = facets.map(|facet| facet.patch.corner_slopes(along, upright));
-    let (own, other) = (own?, other?);
-    if !(own[0] > other[1] || other[0] > own[1]) {
-        return None;
+/// Directions against which normals of nearly parallel patches slope.
+pub(super) struct Frame {
+    upright: DVec3,
+    /// From normals of one patch to those of the other.
+    along: DVec3,
+}
+
+impl Frame {
+    /// Of two patches; `None` if normals at their corners tell that none of their parameters would be found so.
+    pub(super) fn of(a: &Facet<'_>, b: &Facet<'_>) -> Option<Self> {
+        let [(one, _), (other, _)] = [a.cones.normals?, b.cones.normals?];
+        let other = if one.dot(other) < 0.0 { -other } else { other };
+        let upright = (one + other).try_normalize()?;
+        let along = (one - other).try_normalize()?;
+        let [own, others] = [a, b].map(|facet| facet.patch.corner_slopes(along, upright));
+        let (own, others) = (own?, others?);
+        (own[0] > others[1] || others[0] > own[1]).then_some(Self { upright, along })
     }
+}
+
+fn by_slopes(
+    &Frame { upright, along }: &Frame,
+    facets: [&Facet<'_>; 2],
+    slack: f64,
+) -> Option<[bool; 4]> {
+    let across = upright.cross(along);
     let wider = wider(slack) - 1.0;
     // How the slopes differ along a direction.
     let difference = |direction: DVec3| {

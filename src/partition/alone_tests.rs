@@ -202,13 +202,14 @@ fn through(found: &Found, at: DVec2) -> (&Branch, f64) {
 /// Whether any certificate is given for a curve on whole patches.
 fn is_certified(facets: &[Facet<'_>; 2], branch: &Branch, t: f64) -> bool {
     let [a, b] = facets;
-    let all = [
-        Chords::new(a, b, BORDER),
-        Chords::of_slopes(a, b, BORDER),
-        Chords::new(a, b, 0.02),
-        Chords::of_slopes(a, b, 0.02),
-    ];
-    let mut all = all.into_iter().flatten();
+    let frame = Frame::of(a, b);
+    let mut all = [BORDER, 0.02].into_iter().flat_map(|slack| {
+        let by_slopes = frame
+            .as_ref()
+            .and_then(|frame| Chords::of_slopes(frame, a, b, slack));
+        [Chords::new(a, b, slack), by_slopes]
+    });
+    let mut all = all.by_ref().flatten();
     all.any(|chords| chords.has_only(branch, t, [1.0; 4]))
 }
 

@@ -59,6 +59,7 @@ pub(super) fn control(a: &Node, b: &Node, length: f64) -> [[f64; PARTS]; 6] {
 }
 
 /// The same, of `K` parts from the `first` on.
+#[inline]
 fn control_of<const K: usize>(a: &Node, b: &Node, length: f64, first: usize) -> [[f64; K]; 6] {
     let (h, k) = (length / 5.0, length * length / 20.0);
     // The node's quadratic Taylor polynomial as one of degree 5.
@@ -83,6 +84,7 @@ const SPACE: usize = 0;
 const SHEETS: [usize; 2] = [3, 5];
 
 /// The piece's value at a fraction of its length.
+#[inline]
 pub(super) fn at<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
     let r = 1.0 - s;
     let (r2, s2) = (r * r, s * s);

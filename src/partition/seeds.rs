@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::alone::{BORDER, Chords};
+use super::alone::{BORDER, Chords, Frame};
 use super::bounds::Bounds;
 use super::check::Doubt;
 use super::facet::Facet;
@@ -18,6 +18,8 @@ use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 1e-5;
+/// And to this one where only a certificate is missing.
+const TINY: f64 = 1e-8;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -61,13 +63,13 @@ pub(super) struct Search<'a, F> {
     halvings: usize,
 }
 
-/// Where an attempt to land has ended.
+/// A common point of two sheets.
 #[derive(Clone, Copy)]
-enum Landing {
+enum Place {
     /// On a branch, at a parameter of it.
     On(usize, f64),
-    /// On a curve that cannot be followed.
-    Lost,
+    /// On none that is known.
+    New(Node),
 }
 
 /// What is known of two patches.
@@ -157,35 +159,43 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let around = self.around;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
+        let tiny = TINY * self.pair.tolerances.scale;
+        let is_tiny = size_a < tiny && size_b < tiny;
+        let is_flat = a.lean() < FLAT && b.lean() < FLAT;
+        let mut is_least = is_small;
         // A curve that passes beside the smallest patches passes through what is around them.
         let beside = if is_small { BESIDE } else { BORDER };
-        if a.lean() < FLAT && b.lean() < FLAT {
+        if is_flat {
             match self.flat(a, b, beside) {
                 Verdict::Apart | Verdict::Known => return,
-                Verdict::Doubtful if is_small => {
+                Verdict::Doubtful if is_tiny => {
                     self.doubt(a);
                     return;
                 }
-                Verdict::Doubtful | Verdict::Open => {}
+                // Only where they bend much are small patches not flat enough.
+                Verdict::Doubtful => is_least = false,
+                Verdict::Open => {}
             }
         }
-        if is_small {
-            if self
-                .land(a, b, linear::guess(&a.patch, &b.patch, BESIDE))
-                .is_none()
-                && !self.passes_by(a, b)
-            {
+        if is_least {
+            let guess = linear::guess(&a.patch, &b.patch, BESIDE);
+            let place = self.locate(a, b, &guess);
+            let is_near = place.and_then(|place| self.follow(place)).is_some();
+            if !is_near && !self.passes_by(a, b) {
                 let [u, v] = a.patch.middle();
                 let point = self.pair.sheets[0].point(u, v);
                 self.undecided += usize::from((self.matters)(point));
-            } else {
-                self.doubt(a);
+                return;
             }
-            return;
+            if !is_flat || is_tiny {
+                self.doubt(a);
+                return;
+            }
         }
+        let least = if is_small { tiny } else { least };
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
         let too_small = size_a < least || size_b < least;
-        let first = if unlike || too_small || (a.lean() < FLAT && b.lean() < FLAT) {
+        let first = if unlike || too_small || is_flat {
             size_a > size_b
         } else {
             a.lean() > b.lean()
@@ -220,18 +230,30 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             }
         }
         let by_cones = Chords::new(a, b, beside);
-        let by_slopes = by_cones.is_none().then(|| Chords::of_slopes(a, b, beside));
-        let Some(chords) = by_cones.or(by_slopes.flatten()) else {
+        let frame = match by_cones {
+            Some(_) => None,
+            None => Frame::of(a, b),
+        };
+        if by_cones.is_none() && frame.is_none() {
+            return Verdict::Open;
+        }
+        let place = match guess {
+            Guess::Meet(..) => self.locate(a, b, &guess),
+            _ => None,
+        };
+        let Some(place) = place else {
+            return Verdict::Doubtful;
+        };
+        let by_slopes = || Chords::of_slopes(frame.as_ref()?, a, b, beside);
+        let Some(chords) = by_cones.or_else(by_slopes) else {
             return Verdict::Open;
         };
         let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
-        match self.land(a, b, guess) {
-            Some(Landing::On(branch, t)) if chords.has_only(&self.branches[branch], t, lengths) => {
+        match self.follow(place) {
+            Some((branch, t)) if chords.has_only(&self.branches[branch], t, lengths) => {
                 self.certain += 1;
                 Verdict::Known
             }
-            // Where curves cannot be followed the model is refused.
-            Some(Landing::Lost) if self.undecided > 0 => Verdict::Known,
             _ => Verdict::Doubtful,
         }
     }
@@ -259,24 +281,28 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    /// Tries to land on the curve between two patches: on a known one, or on a new one.
-    fn land(&mut self, a: &Facet<'_>, b: &Facet<'_>, guess: Guess) -> Option<Landing> {
+    /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
+    fn locate(&self, a: &Facet<'_>, b: &Facet<'_>, guess: &Guess) -> Option<Place> {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
         let within = grown(BESIDE);
-        let known = |(at, branch): (usize, &Branch)| {
-            let passes = |ranges: &[[f64; 2]; 4]| {
-                let inside = |node: &Node| lies(&node.parameters(), ranges);
-                branch.nodes.iter().position(inside)
-            };
-            // Rather a node well inside than one beside.
-            let node = passes(&rectangles).or_else(|| passes(&within))?;
-            Some(Landing::On(at, branch.lengths[node]))
-        };
-        if let Some(landing) = self.branches.iter().enumerate().find_map(known) {
-            return Some(landing);
+        // Rather a node well inside than one beside.
+        let mut beside = None;
+        for (at, branch) in self.branches.iter().enumerate() {
+            for (node, length) in branch.nodes.iter().zip(&branch.lengths) {
+                let q = node.parameters();
+                if lies(&q, &within) {
+                    if lies(&q, &rectangles) {
+                        return Some(Place::On(at, *length));
+                    }
+                    beside = beside.or(Some(Place::On(at, *length)));
+                }
+            }
         }
-        let Guess::Meet(mut q, tangent, point) = guess else {
+        if beside.is_some() {
+            return beside;
+        }
+        let Guess::Meet(mut q, tangent, point) = *guess else {
             return None;
         };
         let closing = Closing::Plane(tangent, point);
@@ -290,17 +316,22 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return None;
         }
         let node = self.pair.node(q, None)?;
-        if let Some(landing) = self.traced(&node) {
-            return Some(landing);
-        }
+        Some(self.traced(&node).unwrap_or(Place::New(node)))
+    }
+
+    /// The branch through a place and the place's parameter on it; `None` if it cannot be followed.
+    fn follow(&mut self, place: Place) -> Option<(usize, f64)> {
+        let node = match place {
+            Place::On(branch, t) => return Some((branch, t)),
+            Place::New(node) => node,
+        };
         let Some(branch) = (self.found)(node) else {
-            // A point of a curve that cannot be followed.
             self.undecided += usize::from((self.matters)(node.point()));
-            return Some(Landing::Lost);
+            return None;
         };
         let t = branch.project(node.point()).0;
         self.branches.push(branch);
-        Some(Landing::On(self.branches.len() - 1, t))
+        Some((self.branches.len() - 1, t))
     }
 
     /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
@@ -326,12 +357,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// The known branch that passes through a point.
-    fn traced(&self, node: &Node) -> Option<Landing> {
+    fn traced(&self, node: &Node) -> Option<Place> {
         let near = (6.0 * self.pair.tolerances.curve / node.sine.max(PARALLEL))
             .max(1e2 * self.pair.tolerances.curve);
         let passes = |(at, branch): (usize, &Branch)| {
             let (t, _) = branch.nearest(node.point(), near)?;
-            Some(Landing::On(at, t))
+            Some(Place::On(at, t))
         };
         self.branches.iter().enumerate().find_map(passes)
     }

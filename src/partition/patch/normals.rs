@@ -77,25 +77,43 @@ impl Patch {
 
     /// How all products of its legs slope along a direction, if they all point up or all down.
     pub(in crate::partition) fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
-        let [legs_u, legs_v] = self.legs();
+        let legs = self.legs();
+        // Vanishing legs say nothing.
+        let [legs_u, legs_v] = legs.each_ref().map(|legs| {
+            let legs = legs.iter().filter(|leg| **leg != DVec3::ZERO).copied();
+            legs.collect::<SmallVec<[DVec3; LEGS]>>()
+        });
+        let sign = legs_u
+            .first()?
+            .cross(*legs_v.first()?)
+            .dot(upright)
+            .signum();
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-        let mut sign = 0.0;
-        for u in &legs_u {
-            let [rise, reach] = [upright, along].map(|d| d.cross(*u));
-            for v in &legs_v {
-                let height = rise.dot(*v);
-                if height == 0.0 && (*u == DVec3::ZERO || *v == DVec3::ZERO) {
-                    continue;
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        for some in legs_v.chunks(LEGS) {
+            // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
+            let last = some.len() - 1;
+            let lanes: [[f64; LEGS]; 3] =
+                std::array::from_fn(|axis| std::array::from_fn(|k| some[k.min(last)][axis]));
+            let mut least = [f64::INFINITY; LEGS];
+            let (mut low, mut high) = ([f64::INFINITY; LEGS], [f64::INFINITY; LEGS]);
+            for u in &legs_u {
+                let [rise, reach] = [upright, along].map(|d| sign * d.cross(*u));
+                for k in 0..LEGS {
+                    let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
+                    let height = x * rise.x + y * rise.y + z * rise.z;
+                    let slope = (x * reach.x + y * reach.y + z * reach.z) / height;
+                    least[k] = smaller(height, least[k]);
+                    low[k] = smaller(slope, low[k]);
+                    high[k] = smaller(-slope, high[k]);
                 }
-                if sign == 0.0 {
-                    sign = height.signum();
-                }
-                // Written so that NaN fails too.
-                if !(sign * height > 0.0) {
-                    return None;
-                }
-                let slope = reach.dot(*v) / height;
-                range = [range[0].min(slope), range[1].max(slope)];
+            }
+            // Written so that NaN fails too.
+            if !least.iter().all(|height| *height > 0.0) {
+                return None;
+            }
+            for (low, high) in low.into_iter().zip(high) {
+                range = [smaller(low, range[0]), -smaller(high, -range[1])];
             }
         }
         Some(range)
