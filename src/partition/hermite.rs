@@ -59,6 +59,7 @@ pub(super) fn control(a: &Node, b: &Node, length: f64) -> [[f64; PARTS]; 6] {
 }
 
 /// The same, of `K` parts from the `first` on.
+#[inline]
 fn control_of<const K: usize>(a: &Node, b: &Node, length: f64, first: usize) -> [[f64; K]; 6] {
     let (h, k) = (length / 5.0, length * length / 20.0);
     // The node's quadratic Taylor polynomial as one of degree 5.
@@ -83,6 +84,7 @@ const SPACE: usize = 0;
 const SHEETS: [usize; 2] = [3, 5];
 
 /// The piece's value at a fraction of its length.
+#[inline]
 pub(super) fn at<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
     let r = 1.0 - s;
     let (r2, s2) = (r * r, s * s);
@@ -112,6 +114,33 @@ fn slope<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
         let leg = |k: usize| points[k + 1][i] - points[k][i];
         (0..5).map(|k| 5.0 * weights[k] * leg(k)).sum()
     })
+}
+
+/// The control points of a part of a piece, between fractions of its length.
+pub(super) fn part<const K: usize>(points: &[[f64; K]; 6], [from, to]: [f64; 2]) -> [[f64; K]; 6] {
+    let mut whole = *points;
+    if to < 1.0 {
+        whole = lower(whole, to);
+    }
+    if from > 0.0 {
+        // The lower part of the reverse.
+        whole.reverse();
+        whole = lower(whole, 1.0 - from / to);
+        whole.reverse();
+    }
+    whole
+}
+
+/// The control points up to a fraction (de Casteljau).
+fn lower<const K: usize>(mut points: [[f64; K]; 6], s: f64) -> [[f64; K]; 6] {
+    for round in 1..6 {
+        for k in (round..6).rev() {
+            for i in 0..K {
+                points[k][i] = (1.0 - s) * points[k - 1][i] + s * points[k][i];
+            }
+        }
+    }
+    points
 }
 
 /// Nearer to a node than this fraction of a piece, the piece is as good as exact: its error grows with the third power.
@@ -168,6 +197,24 @@ impl Branch {
         control(&self.nodes[piece], &self.nodes[piece + 1], length)
     }
 
+    /// The control points of the images of a piece on both sheets.
+    pub(super) fn images(&self, piece: usize) -> [[f64; 4]; 6] {
+        let length = self.lengths[piece + 1] - self.lengths[piece];
+        control_of(
+            &self.nodes[piece],
+            &self.nodes[piece + 1],
+            length,
+            SHEETS[0],
+        )
+    }
+
+    /// Parameters as fractions of a piece's length.
+    pub(super) fn fractions(&self, piece: usize, range: [f64; 2]) -> [f64; 2] {
+        let start = self.lengths[piece];
+        let length = self.lengths[piece + 1] - start;
+        range.map(|t| ((t - start) / length).clamp(0.0, 1.0))
+    }
+
     fn locate(&self, t: f64) -> (usize, f64) {
         let inner = &self.lengths[1..self.lengths.len() - 1];
         let piece = inner.partition_point(|length| *length <= t);
@@ -209,7 +256,13 @@ impl Branch {
 
     /// The parameter of the nearest point to one that lies near the branch, and its distance.
     pub(super) fn project(&self, p: DVec3) -> (f64, f64) {
-        let mut best = (0.0, f64::INFINITY);
+        self.nearest(p, f64::INFINITY)
+            .unwrap_or((0.0, f64::INFINITY))
+    }
+
+    /// The parameter of the nearest point to one, and its distance, if that is less than a given one.
+    pub(super) fn nearest(&self, p: DVec3, within: f64) -> Option<(f64, f64)> {
+        let mut best = (f64::NAN, within);
         for piece in 0..self.pieces() {
             let length = self.lengths[piece + 1] - self.lengths[piece];
             let from = self.nodes[piece].point();
@@ -222,7 +275,7 @@ impl Branch {
                 best = (self.lengths[piece] + s * length, distance);
             }
         }
-        best
+        (best.1 < within).then_some(best)
     }
 
     /// The pieces that hold a range of parameters, as flat knots and control points: C2, knots of multiplicity 3.
