@@ -4,8 +4,8 @@ use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 use glam::{DVec2, DVec3};
 
-use super::formula::{Sheet, TD, TS, by_formula, sheets, sheets_of};
 use super::assembled::Built;
+use super::formula::{Sheet, TD, TS, by_formula, sheets, sheets_of};
 use super::{SET, built, from_text};
 
 /// The clinothems of [`SET`] have the sizes that the formula of its sheets gives, and were built at the first attempt.
