@@ -2,6 +2,7 @@
 //! derivatives by arc length. One parameter serves the curve in space and its images on both sheets.
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 /// What runs along a curve: x, y, z, then (u, v) on the first sheet, then (u, v) on the second.
 pub(super) const PARTS: usize = 7;
@@ -129,6 +130,22 @@ pub(super) struct Branch {
     pub(super) ends: [End; 2],
 }
 
+/// A piece of a branch on one of its sheets.
+pub(super) struct PieceOn {
+    points: [[f64; 2]; 6],
+    range: [f64; 2],
+}
+
+impl PieceOn {
+    /// The place on the sheet, and its derivative by arc length.
+    pub(super) fn at(&self, t: f64) -> (DVec2, DVec2) {
+        let length = self.range[1] - self.range[0];
+        let s = (t - self.range[0]) / length;
+        let place = DVec2::from_array(at(&self.points, s));
+        (place, DVec2::from_array(slope(&self.points, s)) / length)
+    }
+}
+
 /// How a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum End {
@@ -190,6 +207,17 @@ impl Branch {
         self.both(t, SHEETS[side]).map(DVec2::from_array)
     }
 
+    /// The piece that holds a parameter, on one of its sheets.
+    pub(super) fn piece_on(&self, side: usize, t: f64) -> PieceOn {
+        let piece = self.locate(t).0;
+        let range = [self.lengths[piece], self.lengths[piece + 1]];
+        let (a, b) = (&self.nodes[piece], &self.nodes[piece + 1]);
+        PieceOn {
+            points: control_of(a, b, range[1] - range[0], SHEETS[side]),
+            range,
+        }
+    }
+
     /// Value and derivative by arc length of `K` parts from the `first` on.
     fn both<const K: usize>(&self, t: f64, first: usize) -> [[f64; K]; 2] {
         let (piece, s) = self.locate(t);
@@ -209,17 +237,25 @@ impl Branch {
 
     /// The parameter of the nearest point to one that lies near the branch, and its distance.
     pub(super) fn project(&self, p: DVec3) -> (f64, f64) {
+        let squares = self
+            .nodes
+            .iter()
+            .map(|node| node.point().distance_squared(p));
+        let squares: SmallVec<[f64; 64]> = squares.collect();
+        let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
+        // No piece is far longer than its chord, so nothing of it is nearer than its start less its length.
         let mut best = (0.0, f64::INFINITY);
-        for piece in 0..self.pieces() {
+        let mut within = nearest.sqrt();
+        for (piece, square) in squares[..self.pieces()].iter().enumerate() {
             let length = self.lengths[piece + 1] - self.lengths[piece];
-            let from = self.nodes[piece].point();
-            let reach = best.1 + 1.5 * length;
-            if from.distance_squared(p) > reach * reach {
+            let reach = within + 1.5 * length;
+            if *square > reach * reach {
                 continue;
             }
             let (s, distance) = project(&self.nodes[piece], &self.nodes[piece + 1], length, p);
             if distance < best.1 {
                 best = (self.lengths[piece] + s * length, distance);
+                within = within.min(distance);
             }
         }
         best
