@@ -7,6 +7,8 @@
 //! What is still undecided when it is smaller than a given distance is a fold or a side that the line grazes: such a line
 //! is not clear, and says nothing.
 
+use std::borrow::Cow;
+
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use smallvec::{SmallVec, smallvec};
 
@@ -15,6 +17,8 @@ use super::blossom;
 use super::knots::ORDER;
 use super::{KnotVector, Surface};
 
+/// Patches of one surface that are kept: some 2 MB.
+const KEPT: usize = 4096;
 /// Halvings of one patch before a line is given up.
 const MOST_HALVINGS: usize = 400;
 /// How far beyond the borders of a patch, in its parameters, a place still belongs to it: rounding.
@@ -89,14 +93,16 @@ pub struct Passage {
     pub v: DVec3,
 }
 
-/// A surface with the boxes of its Bézier patches. The patches themselves are made anew for each line that comes near to
-/// one: there are very many, and most lines see few.
+/// A surface with the boxes of its Bézier patches. Of a surface with very many the patches themselves are made anew for each line
+/// that comes near to one: most lines see few.
 #[derive(Clone, Debug)]
 pub struct Target<'a> {
     surface: &'a Surface,
     /// In u and in v.
     spans: [Vec<Span>; 2],
     boxes: Vec<(DVec3, DVec3)>,
+    /// The patches, unless there are very many.
+    kept: Vec<Patch>,
 }
 
 /// A span of a knot vector, and how control points of the spline make those of its Bézier piece.
@@ -149,16 +155,35 @@ impl<'a> Target<'a> {
             surface,
             spans,
             boxes: Vec::new(),
+            kept: Vec::new(),
         };
         let count = target.spans[0].len() * target.spans[1].len();
-        target.boxes = (0..count).map(|at| target.patch(at).0.hull()).collect();
+        let patches = (0..count).map(|at| target.made(at));
+        if count <= KEPT {
+            target.kept = patches.collect();
+            target.boxes = target.kept.iter().map(Patch::hull).collect();
+        } else {
+            target.boxes = patches.map(|patch| patch.hull()).collect();
+        }
         target
     }
 
-    /// A patch with its parameters.
-    fn patch(&self, at: usize) -> (Patch, Region) {
+    /// The spans of a patch.
+    fn spans(&self, at: usize) -> [&Span; 2] {
         let columns = self.spans[1].len();
-        let (u, v) = (&self.spans[0][at / columns], &self.spans[1][at % columns]);
+        [&self.spans[0][at / columns], &self.spans[1][at % columns]]
+    }
+
+    fn patch(&self, at: usize) -> Cow<'_, Patch> {
+        match self.kept.get(at) {
+            Some(patch) => Cow::Borrowed(patch),
+            None => Cow::Owned(self.made(at)),
+        }
+    }
+
+    /// A patch, made of the control points.
+    fn made(&self, at: usize) -> Patch {
+        let [u, v] = self.spans(at);
         let (net, weights) = (self.surface.net(), self.surface.weights());
         let row = self.surface.knots_v().count();
         let order = [self.surface.knots_u(), self.surface.knots_v()].map(|k| k.degree() + 1);
@@ -182,24 +207,17 @@ impl<'a> Target<'a> {
                 own.push(terms.fold(DVec4::ZERO, |sum, term| sum + term));
             }
         }
-        (
-            Patch {
-                degree_u: order[0] - 1,
-                degree_v: order[1] - 1,
-                net: own,
-            },
-            Region {
-                u: u.range,
-                v: v.range,
-            },
-        )
+        Patch {
+            degree_u: order[0] - 1,
+            degree_v: order[1] - 1,
+            net: own,
+        }
     }
 
     /// Its patches: the box of each, and its ranges of parameters as lower and upper corner.
     pub fn patches(&self) -> impl Iterator<Item = ((DVec3, DVec3), [DVec2; 2])> {
-        let columns = self.spans[1].len();
         self.boxes.iter().enumerate().map(move |(at, bounds)| {
-            let (u, v) = (&self.spans[0][at / columns], &self.spans[1][at % columns]);
+            let [u, v] = self.spans(at);
             let corner = |k: usize| DVec2::new(u.range[k], v.range[k]);
             (*bounds, [corner(0), corner(1)])
         })
@@ -207,7 +225,11 @@ impl<'a> Target<'a> {
 
     /// Adds where a line passes through a patch. `false` if the line is not clear of something nearer than a distance.
     pub fn pass(&self, at: usize, line: Line, near: f64, found: &mut Vec<Passage>) -> bool {
-        let (patch, region) = self.patch(at);
+        let patch = self.patch(at);
+        let region = Region {
+            u: self.spans(at)[0].range,
+            v: self.spans(at)[1].range,
+        };
         let mut stack: SmallVec<[View; 4]> = SmallVec::new();
         stack.push(View::new(&patch, line));
         let mut halvings = 0;

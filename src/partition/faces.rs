@@ -129,14 +129,20 @@ impl Tracer<'_> {
         let (mut links, places) = self.links(halves);
         self.connect(&mut links, places, &mut faults);
         let loops = close(&links, &mut faults);
+        // One sheet may have nearly all loops: the domain's top.
+        let loops: Vec<(Vec<usize>, Outline, f64)> = loops
+            .into_par_iter()
+            .map(|one| {
+                let polygon = self.fine_polygon(&one, &links);
+                let area = signed_area(&polygon);
+                (one, Outline::new(polygon, area.abs()), area)
+            })
+            .collect();
         let mut outer: Vec<(Face, Outline)> = Vec::new();
         let mut holes: Vec<(Vec<usize>, Outline)> = Vec::new();
-        for one in loops {
+        for (one, outline, area) in loops {
             let labels = links[one[0]].labels;
             faults.mixed_loops += usize::from(one.iter().any(|at| links[*at].labels != labels));
-            let polygon = self.fine_polygon(&one, &links);
-            let area = signed_area(&polygon);
-            let outline = Outline::new(polygon, area.abs());
             if area > 0.0 {
                 let face = Face {
                     sheet: self.sheet,
@@ -392,21 +398,19 @@ impl Tracer<'_> {
                 Source::Edge(_) | Source::Pole(_) => 1,
             };
             let each = finer * if stops.len() < POLYGON { POLYGON } else { each };
-            let mut ts: Vec<f64> = stops
-                .windows(2)
-                .flat_map(|pair| {
-                    (0..each).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / each as f64)
-                })
-                .collect();
-            if !half.forward {
-                ts.push(arc.t[1]);
-                ts.remove(0);
-                ts.reverse();
+            let part = |k: usize| k as f64 / each as f64;
+            let first = polygon.len();
+            for pair in stops.windows(2) {
+                let run = self.geometry.run(source, half.side, [pair[0], pair[1]]);
+                let place = |k: usize| run.at(pair[0] + (pair[1] - pair[0]) * part(k)).0;
+                polygon.extend((0..each).map(place));
             }
-            polygon.extend(
-                ts.into_iter()
-                    .map(|t| self.geometry.on_sheet(source, half.side, t).0),
-            );
+            if !half.forward {
+                let end = self.geometry.on_sheet(source, half.side, arc.t[1]).0;
+                polygon.push(end);
+                polygon.remove(first);
+                polygon[first..].reverse();
+            }
         }
         polygon
     }

@@ -158,6 +158,22 @@ pub(super) struct Branch {
     pub(super) ends: [End; 2],
 }
 
+/// A piece of a branch on one of its sheets.
+pub(super) struct PieceOn {
+    points: [[f64; 2]; 6],
+    range: [f64; 2],
+}
+
+impl PieceOn {
+    /// The place on the sheet, and its derivative by arc length.
+    pub(super) fn at(&self, t: f64) -> (DVec2, DVec2) {
+        let length = self.range[1] - self.range[0];
+        let s = (t - self.range[0]) / length;
+        let place = DVec2::from_array(at(&self.points, s));
+        (place, DVec2::from_array(slope(&self.points, s)) / length)
+    }
+}
+
 /// How a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum End {
@@ -235,6 +251,17 @@ impl Branch {
     /// The place on one of its sheets, and its derivative by arc length.
     pub(super) fn image(&self, side: usize, t: f64) -> [DVec2; 2] {
         self.both(t, SHEETS[side]).map(DVec2::from_array)
+    }
+
+    /// The piece that holds a parameter, on one of its sheets.
+    pub(super) fn piece_on(&self, side: usize, t: f64) -> PieceOn {
+        let piece = self.locate(t).0;
+        let range = [self.lengths[piece], self.lengths[piece + 1]];
+        let (a, b) = (&self.nodes[piece], &self.nodes[piece + 1]);
+        PieceOn {
+            points: control_of(a, b, range[1] - range[0], SHEETS[side]),
+            range,
+        }
     }
 
     /// Value and derivative by arc length of `K` parts from the `first` on.

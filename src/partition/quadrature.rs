@@ -89,6 +89,26 @@ struct Pair {
     poor: &'static [f64],
 }
 
+impl Pair {
+    /// How many nodes there are.
+    fn count(self) -> usize {
+        2 * self.rule.len() - self.odd()
+    }
+
+    /// 1 if there is one in the middle.
+    fn odd(self) -> usize {
+        usize::from(self.rule[0].0 == 0.0)
+    }
+
+    /// A node with its weight, and with that of the poorer rule.
+    fn node(self, k: usize) -> (f64, f64, f64) {
+        let k = k + self.odd();
+        let (x, weight) = self.rule[k / 2];
+        let x = if k % 2 == 0 { x } else { -x };
+        (x, weight, self.poor[k / 2])
+    }
+}
+
 /// Three nodes, and the middle alone.
 const THREE_ONE: Pair = Pair {
     rule: THREE,
@@ -115,6 +135,9 @@ const TEN_SIX: Pair = Pair {
 const PIECE: Pair = THREE_ONE;
 /// The same on rational sheets: beside a pole, what lies across a piece varies faster than the piece does.
 const RATIONAL_PIECE: Pair = TEN_SIX;
+
+/// How far a piece must go beyond a knot to pass it, as a share of all parameters.
+const PASSED: f64 = 1e-9;
 
 /// Which rule integrates polynomials of a sheet's flux exactly (degree 3d − 1), and others well.
 fn rule(degree: usize, rational: bool) -> Pair {
@@ -152,27 +175,34 @@ fn missed(difference: f64, spread: f64) -> f64 {
 }
 
 fn adaptive(pair: Pair, from: f64, to: f64, goal: Goal, at: &mut impl FnMut(f64) -> Sum) -> Sum {
-    const MOST: usize = 10;
+    // With the number of nodes as a constant, nothing is looped over or copied.
+    match pair.count() {
+        3 => adaptive_of::<3>(pair, from, to, goal, at),
+        5 => adaptive_of::<5>(pair, from, to, goal, at),
+        _ => adaptive_of::<10>(pair, from, to, goal, at),
+    }
+}
+
+fn adaptive_of<const N: usize>(
+    pair: Pair,
+    from: f64,
+    to: f64,
+    goal: Goal,
+    at: &mut impl FnMut(f64) -> Sum,
+) -> Sum {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let mut values = [(Sum::default(), 0.0, 0.0); MOST];
-    let mut count = 0;
+    let nodes: [(f64, f64, f64); N] = std::array::from_fn(|k| pair.node(k));
+    let values = nodes.map(|(x, _, _)| at(middle + half * x));
     let mut sum = Sum::default();
-    for (&(x, weight), &poor) in pair.rule.iter().zip(pair.poor) {
-        let mirrored = (x != 0.0).then_some(-x);
-        for x in [x].into_iter().chain(mirrored) {
-            let value = at(middle + half * x);
-            sum = sum.plus(value.times(weight));
-            values[count] = (value, weight, poor);
-            count += 1;
-        }
+    for (value, (_, weight, _)) in values.iter().zip(nodes) {
+        sum = sum.plus(value.times(weight));
     }
     // Areas beside what the mean normal sees of them: that part is a polynomial.
     let normal = sum.vector.normalize_or_zero();
+    let own = values.map(|value| [value.own.area - value.vector.dot(normal), value.own.flux]);
     let means = [sum.own.area - sum.vector.dot(normal), sum.own.flux].map(|all| 0.5 * all);
-    let (mut differences, mut spreads, mut size) = ([0.0; 2], [0.0; 2], 0.0);
-    for (value, weight, poor) in &values[..count] {
-        let own = [value.own.area - value.vector.dot(normal), value.own.flux];
-        size += weight * value.own.area.abs();
+    let (mut differences, mut spreads) = ([0.0; 2], [0.0; 2]);
+    for (own, (_, weight, poor)) in own.iter().zip(nodes) {
         for k in 0..2 {
             differences[k] += (poor - weight) * own[k];
             spreads[k] += weight * (own[k] - means[k]).abs();
@@ -184,15 +214,20 @@ fn adaptive(pair: Pair, from: f64, to: f64, goal: Goal, at: &mut impl FnMut(f64)
     } else {
         missed(differences[1].abs(), spreads[1])
     };
-    if goal.halvings > 0 && (area_error > 0.5 * AREA * size || flux_error > 0.5 * goal.flux * size)
-    {
-        let fewer = Goal {
-            halvings: goal.halvings - 1,
-            ..goal
-        };
-        // Ten nodes from here on: what needs halving at all is settled by few halvings then.
-        return adaptive(TEN_SIX, from, middle, fewer, at)
-            .plus(adaptive(TEN_SIX, middle, to, fewer, at));
+    if goal.halvings > 0 {
+        let sizes = values.iter().zip(nodes);
+        let size: f64 = sizes
+            .map(|(value, node)| node.1 * value.own.area.abs())
+            .sum();
+        if area_error > 0.5 * AREA * size || flux_error > 0.5 * goal.flux * size {
+            let fewer = Goal {
+                halvings: goal.halvings - 1,
+                ..goal
+            };
+            // Ten nodes from here on: what needs halving at all is settled by few halvings then.
+            return adaptive(TEN_SIX, from, middle, fewer, at)
+                .plus(adaptive(TEN_SIX, middle, to, fewer, at));
+        }
     }
     sum.own.area_error += area_error;
     sum.own.flux_error += flux_error;
@@ -284,13 +319,28 @@ fn of_curved_face(
             ..across.goal
         };
         let stops = across.stops(geometry, source, half.side, arc.t);
+        let mut strip: Option<Strip> = None;
         for pair in stops.windows(2) {
+            let run = geometry.run(source, half.side, [pair[0], pair[1]]);
+            let base = across.base(run.at(0.5 * (pair[0] + pair[1])).0);
             let own = adaptive(outer, pair[0], pair[1], goal, &mut |t| {
-                let (at, speed) = geometry.on_sheet(source, half.side, t);
-                across.at(at, speed)
+                let (at, speed) = run.at(t);
+                across.between(base, at, speed)
             });
             sum = sum.plus(own.times(sign));
+            // Up to there the integral across depends on the place along alone: once for many pieces.
+            let ends = [pair[0], pair[1]].map(|t| run.at(t).0[1 - across.axis]);
+            match &mut strip {
+                Some(strip) if strip.base == base && across.is_smooth(strip.range[0], ends[1]) => {
+                    strip.range[1] = ends[1];
+                }
+                _ => {
+                    let last = strip.replace(Strip { base, range: ends });
+                    sum = sum.plus(across.strip(last).times(sign));
+                }
+            }
         }
+        sum = sum.plus(across.strip(strip).times(sign));
     }
     sum.own
 }
@@ -377,6 +427,14 @@ fn gaps(
     sum
 }
 
+/// What lies between where integrals across start and a parameter across, beside a part of a loop.
+#[derive(Clone, Copy, Debug)]
+struct Strip {
+    base: f64,
+    /// From and to along the loop.
+    range: [f64; 2],
+}
+
 /// Integrals across a sheet, in the direction with fewer spans, from a fixed parameter.
 struct Across<'a> {
     sheet: &'a Sheet,
@@ -422,7 +480,7 @@ impl<'a> Across<'a> {
         let mut from = at(stops[0]);
         for pair in stops.windows(2) {
             let to = at(pair[1]);
-            let slack = 1e-9 * (knots[knots.len() - 1] - knots[0]);
+            let slack = PASSED * (knots[knots.len() - 1] - knots[0]);
             let (low, high) = (from.min(to) + slack, from.max(to) - slack);
             let first = knots.partition_point(|knot| *knot <= low);
             for knot in knots[first..].iter().take_while(|knot| **knot < high) {
@@ -446,14 +504,61 @@ impl<'a> Across<'a> {
         stops
     }
 
+    /// The parameter from which a place is looked at: where integrals start, or the last knot on the way from there.
+    fn base(&self, place: DVec2) -> f64 {
+        let (from, to) = (self.from, place[self.axis]);
+        let knots = &self.sheet.knots[self.axis];
+        let last = if to < from {
+            let next = knots.partition_point(|knot| *knot <= to);
+            knots.get(next).filter(|knot| **knot < from)
+        } else {
+            let next = knots.partition_point(|knot| *knot < to);
+            next.checked_sub(1)
+                .map(|last| &knots[last])
+                .filter(|knot| **knot > from)
+        };
+        last.copied().unwrap_or(from)
+    }
+
+    /// Whether there is no knot between two places along.
+    fn is_smooth(&self, from: f64, to: f64) -> bool {
+        let knots = &self.sheet.knots[1 - self.axis];
+        let (low, high) = (from.min(to), from.max(to));
+        let slack = PASSED * (knots[knots.len() - 1] - knots[0]);
+        let first = knots.partition_point(|knot| *knot <= low + slack);
+        knots.get(first).is_none_or(|knot| *knot >= high - slack)
+    }
+
+    /// The integral over a strip.
+    fn strip(&self, strip: Option<Strip>) -> Sum {
+        let Some(Strip { base, range }) = strip.filter(|strip| strip.base != self.from) else {
+            return Sum::default();
+        };
+        let goal = Goal {
+            exact: self.exact,
+            ..self.goal
+        };
+        let (mut place, mut speed) = (DVec2::splat(base), DVec2::ZERO);
+        speed[1 - self.axis] = 1.0;
+        adaptive(self.along, range[0], range[1], goal, &mut |x| {
+            place[1 - self.axis] = x;
+            self.between(self.from, place, speed)
+        })
+    }
+
     /// The integral across, up to a place, times the speed at which a loop passes along.
     fn at(&self, place: DVec2, speed: DVec2) -> Sum {
+        self.between(self.from, place, speed)
+    }
+
+    /// The same from another parameter.
+    fn between(&self, from: f64, place: DVec2, speed: DVec2) -> Sum {
         // ∬ f du dv = ∮ (∫ f du) dv = −∮ (∫ f dv) du
         let factor = if self.axis == 0 { speed.y } else { -speed.x };
-        if factor == 0.0 {
+        let to = place[self.axis];
+        if factor == 0.0 || from == to {
             return Sum::default();
         }
-        let (from, to) = (self.from, place[self.axis]);
         let (low, high) = (from.min(to), from.max(to));
         let knots = &self.sheet.knots[self.axis];
         let inner = knots.iter().copied().filter(|k| *k > low && *k < high);

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::check::Faults;
 use super::crossings::{Crossings, MATCH};
-use super::hermite::End;
+use super::hermite::{End, PieceOn};
 use super::pair::Tolerances;
 use super::region::Regions;
 
@@ -50,6 +50,22 @@ pub(super) struct Geometry<'a> {
     pub(super) crossings: &'a Crossings,
 }
 
+/// A smooth piece of a track on one of its sheets.
+pub(super) enum Run<'a> {
+    Known(Geometry<'a>, Source, usize),
+    Piece(PieceOn),
+}
+
+impl Run<'_> {
+    /// Parameters on the sheet, and their derivative.
+    pub(super) fn at(&self, t: f64) -> (DVec2, DVec2) {
+        match self {
+            Self::Known(geometry, source, side) => geometry.on_sheet(*source, *side, t),
+            Self::Piece(piece) => piece.at(t),
+        }
+    }
+}
+
 impl Geometry<'_> {
     /// The point at t.
     pub(super) fn point(&self, source: Source, t: f64) -> DVec3 {
@@ -83,6 +99,17 @@ impl Geometry<'_> {
                     (DVec2::new(t, fixed), DVec2::X)
                 }
             }
+        }
+    }
+
+    /// A smooth piece of a track on one of its sheets.
+    pub(super) fn run(&self, source: Source, side: usize, range: [f64; 2]) -> Run<'_> {
+        match source {
+            Source::Crossing(at) => {
+                let branch = &self.crossings.curves[at].branch;
+                Run::Piece(branch.piece_on(side, 0.5 * (range[0] + range[1])))
+            }
+            Source::Edge(_) | Source::Pole(_) => Run::Known(*self, source, side),
         }
     }
 

@@ -78,6 +78,31 @@ impl<'a> Bodies<'a> {
     }
 }
 
+/// Lines of which the first clear one is followed.
+enum Aim<'a> {
+    Columns([Line; TRIES]),
+    /// Across a patch of a surface, given by its parameters, near its middle.
+    Patch(&'a Surface, [[f64; 2]; 2]),
+}
+
+impl Aim<'_> {
+    fn line(&self, k: usize) -> Option<Line> {
+        match self {
+            Self::Columns(lines) => lines.get(k).copied(),
+            Self::Patch(surface, patch) => {
+                let [u, v] = place(*patch, k);
+                Some(across(surface.point(u, v), surface.normal(u, v)?))
+            }
+        }
+    }
+}
+
+/// Parameters near the middle of a patch, others for each try.
+fn place([[u0, u1], [v0, v1]]: [[f64; 2]; 2], k: usize) -> [f64; 2] {
+    let part = 0.43 + 0.037 * k as f64;
+    [u0 + part * (u1 - u0), v0 + (0.97 - part) * (v1 - v0)]
+}
+
 /// What a line was drawn for.
 #[derive(Clone, Copy, Debug)]
 enum Purpose {
@@ -128,7 +153,7 @@ impl Prover<'_> {
         let lines = self.thorough_lines(&surfaces);
         let thorough = lines
             .par_iter()
-            .map(|tries| self.first_clear(scene, &bodies, tries))
+            .map(|aim| self.first_clear(scene, &bodies, aim))
             .reduce(Findings::default, Findings::and);
         let faces = 0..scene.topology.faces.len();
         let each = OF_FACES.div_ceil(faces.len().max(1)).max(OF_FACE);
@@ -187,7 +212,7 @@ impl Prover<'_> {
     }
 
     /// Lines that everything along is asked for, each with others to take if it is not clear.
-    fn thorough_lines(&self, surfaces: &[Surface]) -> Vec<Vec<Line>> {
+    fn thorough_lines<'b>(&self, surfaces: &'b [Surface]) -> Vec<Aim<'b>> {
         let bodies = self.plan.bodies.len() + 1;
         let affordable = (QUESTIONS / (bodies * bodies)).isqrt();
         let each = affordable.clamp(LEAST_COLUMNS, COLUMNS);
@@ -196,11 +221,11 @@ impl Prover<'_> {
         let mut lines = Vec::with_capacity(each * each + OF_BODIES);
         for i in 0..each * each {
             let cell = DVec2::new((i % each) as f64, (i / each) as f64);
-            let column = |_| {
+            let column = |_: usize| {
                 let part = (cell + DVec2::new(stream.unit(), stream.unit())) / each as f64;
                 Line::whole(2, low + size * part.extend(0.0))
             };
-            lines.push((0..TRIES).map(column).collect());
+            lines.push(Aim::Columns(std::array::from_fn(column)));
         }
         let extrema = super::extrema::columns(self.plan, surfaces, each * each);
         lines.extend(extrema.iter().map(|(place, reach)| {
@@ -208,14 +233,14 @@ impl Prover<'_> {
                 let turn = DVec2::from_angle(2.4 * k as f64) * *reach * (k as f64 / TRIES as f64);
                 Line::whole(2, (*place + turn).extend(0.0))
             };
-            (0..TRIES).map(column).collect()
+            Aim::Columns(std::array::from_fn(column))
         }));
         lines.extend(self.through_bodies(surfaces, (2 * each * each).min(OF_BODIES)));
         lines
     }
 
     /// Lines across patches of surfaces, near their middles.
-    fn through_bodies(&self, surfaces: &[Surface], most: usize) -> Vec<Vec<Line>> {
+    fn through_bodies<'b>(&self, surfaces: &'b [Surface], most: usize) -> Vec<Aim<'b>> {
         let (low, high) = (self.plan.low(), self.plan.high());
         let mut places = Vec::new();
         for surface in surfaces {
@@ -228,40 +253,34 @@ impl Prover<'_> {
             });
             for u in u.windows(2) {
                 for v in v.windows(2) {
-                    places.push((surface, [u[0], u[1]], [v[0], v[1]]));
+                    places.push((surface, [[u[0], u[1]], [v[0], v[1]]]));
                 }
             }
         }
         // Patches outside of the domain are none; a subset that is spread evenly stands for very many.
-        let thinned = |places: Vec<_>, most: usize| {
+        let thinned = |places: Vec<(&'b Surface, [[f64; 2]; 2])>, most: usize| {
             let step = places.len().div_ceil(most.max(1)).max(1);
-            places.into_iter().step_by(step)
+            places.into_iter().step_by(step).collect::<Vec<_>>()
         };
-        let at = |surface: &Surface, [u0, u1]: [f64; 2], [v0, v1]: [f64; 2], k: usize| {
-            let part = 0.43 + 0.037 * k as f64;
-            let (u, v) = (u0 + part * (u1 - u0), v0 + (0.97 - part) * (v1 - v0));
+        let is_within = |(surface, patch): &(&Surface, [[f64; 2]; 2])| {
+            let [u, v] = place(*patch, 0);
             let point = surface.point(u, v);
-            let within = point.cmpge(low).all() && point.cmple(high).all();
-            within.then_some((u, v, point))
+            point.cmpge(low).all() && point.cmple(high).all()
         };
         let within: Vec<_> = thinned(places, 8 * most)
-            .filter(|(surface, u, v)| at(surface, *u, *v, 0).is_some())
+            .into_par_iter()
+            .filter(is_within)
             .collect();
-        let tries = |(surface, u, v): (&Surface, [f64; 2], [f64; 2])| {
-            let line = |k: usize| {
-                let (u, v, point) = at(surface, u, v, k)?;
-                Some(across(point, surface.normal(u, v)?))
-            };
-            (0..TRIES).filter_map(line).collect()
-        };
-        thinned(within, most).map(tries).collect()
+        let aims = thinned(within, most).into_iter();
+        aims.map(|(surface, patch)| Aim::Patch(surface, patch))
+            .collect()
     }
 
     /// What the first clear line of some finds.
-    fn first_clear(&self, scene: &Scene<'_>, bodies: &Bodies<'_>, tries: &[Line]) -> Findings {
+    fn first_clear(&self, scene: &Scene<'_>, bodies: &Bodies<'_>, aim: &Aim<'_>) -> Findings {
         let mut found = Findings::default();
-        for line in tries {
-            if self.follow(scene, bodies, *line, Purpose::All, &mut found) {
+        for line in (0..TRIES).filter_map(|k| aim.line(k)) {
+            if self.follow(scene, bodies, line, Purpose::All, &mut found) {
                 break;
             }
             found.redrawn += 1;
