@@ -96,10 +96,17 @@ pub(super) fn at<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
         5.0 * r * s2 * s2,
         s2 * s2 * s,
     ];
-    std::array::from_fn(|i| (0..6).map(|k| weights[k] * points[k][i]).sum())
+    let mut sum = [0.0; K];
+    for (weight, point) in weights.iter().zip(points) {
+        for (sum, part) in sum.iter_mut().zip(point) {
+            *sum += weight * part;
+        }
+    }
+    sum
 }
 
 /// The piece's derivative by the fraction of its length.
+#[inline]
 fn slope<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
     let r = 1.0 - s;
     let (r2, s2) = (r * r, s * s);
@@ -110,10 +117,13 @@ fn slope<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
         4.0 * r * s2 * s,
         s2 * s2,
     ];
-    std::array::from_fn(|i| {
-        let leg = |k: usize| points[k + 1][i] - points[k][i];
-        (0..5).map(|k| 5.0 * weights[k] * leg(k)).sum()
-    })
+    let mut sum = [0.0; K];
+    for (weight, legs) in weights.iter().zip(points.windows(2)) {
+        for (i, sum) in sum.iter_mut().enumerate() {
+            *sum += 5.0 * weight * (legs[1][i] - legs[0][i]);
+        }
+    }
+    sum
 }
 
 /// The control points of a part of a piece, between fractions of its length.
