@@ -59,12 +59,15 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
             rejected.count, rejected.feature, rejected.reason
         );
     }
+    let crossing = match report.assembly.crossing_pairs {
+        1 => "1 pair of bodies crosses".to_owned(),
+        pairs => format!("{pairs} pairs of bodies cross"),
+    };
     let _ = writeln!(
         out,
-        "\nproven: {} solids, {} faces, {} pairs of bodies cross; engine: {}, remedy: {}",
+        "\nproven: {} solids, {} faces, {crossing}; engine: {}, remedy: {}",
         report.assembly.solids,
         report.assembly.faces,
-        report.assembly.crossing_pairs,
         report.assembly.engine,
         report.assembly.remedy
     );

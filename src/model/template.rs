@@ -12,7 +12,7 @@ pub struct Template {
 }
 
 /// The models to start from, the simplest first.
-pub const TEMPLATES: [Template; 2] = [
+pub const TEMPLATES: [Template; 5] = [
     Template {
         name: "quickstart",
         about: "two channels in mud, the younger one meandering",
@@ -22,6 +22,21 @@ pub const TEMPLATES: [Template; 2] = [
         name: "channel-belt",
         about: "20 sinuous channel sandbodies drawn from distributions",
         text: include_str!("../../models/channel-belt/channel-belt.toml"),
+    },
+    Template {
+        name: "isochores",
+        about: "beds given by their thickness above an older horizon, two of which end",
+        text: include_str!("../../models/isochores/isochores.toml"),
+    },
+    Template {
+        name: "parasequence",
+        about: "two shoreface parasequences: clinoforms, and facies belts between them",
+        text: include_str!("../../models/parasequence/parasequence.toml"),
+    },
+    Template {
+        name: "coastal",
+        about: "both of these parasequences above the channels of a coastal plain",
+        text: include_str!("../../models/coastal/coastal.toml"),
     },
 ];
 

@@ -234,3 +234,25 @@ fn the_general_fuse_alone_builds_a_model_with_a_horizon() {
     let size = unit["volume_m3"].as_f64().unwrap();
     assert!((size / (400.0 * 300.0 * 12.0) - 1.0).abs() < 1e-6, "{size}");
 }
+
+#[test]
+fn every_template_is_listed_and_written_and_one_pair_is_one_pair() {
+    let sandbox = Sandbox::new(STRAIGHT);
+    let listed = sandbox.answer("new");
+    for name in [
+        "quickstart",
+        "channel-belt",
+        "isochores",
+        "parasequence",
+        "coastal",
+    ] {
+        assert!(
+            listed.lines().any(|line| line.starts_with(name)),
+            "{listed}"
+        );
+        sandbox.answer(&format!("new {name}"));
+        assert!(sandbox.path(&format!("{name}.toml")).is_file());
+    }
+    let said = sandbox.answer("build quickstart.toml --formats none");
+    assert!(said.contains("1 pair of bodies crosses;"), "{said}");
+}
