@@ -28,7 +28,8 @@ use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::pinch_out::{Absence, Nodes};
 use crate::model::realisation::RealisationError;
 use crate::model::selection::Selection;
-use crate::model::spec::{FeatureKind, HorizonSurface, Model};
+use crate::model::spec::Model;
+use crate::model::values::surface::HorizonSurface;
 use crate::nurbs::Lattice;
 
 /// Heights are equal within this fraction of the domain's diagonal, whatever the least thickness: what rounding leaves.
@@ -89,15 +90,15 @@ impl Strata {
         let top = bound_nodes(model.domain.top.as_ref());
         let mut layers: Vec<Layer> = Vec::with_capacity(features.len() + 1);
         for &feature in &features {
-            let FeatureKind::Horizon(spec) = &model.features[feature].kind else {
+            let Some(base) = model.features[feature].kind.base() else {
                 continue;
             };
             layers.push(Layer {
                 name: model.features[feature].id.clone(),
                 given: given[&feature].clone(),
                 sheet: given[&feature].clone(),
-                nodes: nodes(&spec.surface, &model.features),
-                is_onlapping: spec.onlapping,
+                nodes: nodes(base.surface, &model.features),
+                is_onlapping: base.is_onlapping,
                 swing: swings.get(&feature).copied().unwrap_or(0.0),
                 above: None,
             });
@@ -167,12 +168,9 @@ fn diagonal(model: &Model) -> f64 {
         .sqrt()
 }
 
-/// The surface of a feature that is a horizon.
+/// The surface of a feature that is a base.
 fn surface(model: &Model, feature: usize) -> Option<&HorizonSurface> {
-    match &model.features[feature].kind {
-        FeatureKind::Horizon(spec) => Some(&spec.surface),
-        _ => None,
-    }
+    Some(model.features[feature].kind.base()?.surface)
 }
 
 /// A horizon that takes part, or the domain's top.
