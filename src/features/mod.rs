@@ -15,6 +15,7 @@ pub mod horizon;
 pub mod meander;
 pub mod pinch_out;
 pub mod profile;
+pub mod reach;
 pub mod section;
 pub mod side;
 pub mod thickness;

@@ -1,14 +1,17 @@
 //! Channels.
 
+use std::sync::Arc;
+
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use super::Kind;
 use super::keys::Keys;
-use super::made::{Made, Outcome, Site};
+use super::made::{Frame, Made, Outcome, Site};
 use crate::features::body::Body;
 use crate::features::channel::{ChannelDesign, Origin};
 use crate::features::profile::Profile as Along;
+use crate::features::reach::Reach;
 use crate::model::domain::Domain;
 use crate::model::draws::{Draws, Reason, diagonal};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
@@ -205,7 +208,14 @@ impl Kind for ChannelSpec {
         let trough = design
             .build(&trajectory)
             .map_err(|error| (error.reason(), error.to_string()))?;
-        Ok(Made::body(Body::Trough(trough), draws.taken()))
+        let reach = Reach {
+            trajectory,
+            channel: design,
+        };
+        Ok(Made {
+            frame: Frame::Along(Arc::new(reach)),
+            ..Made::body(Body::Trough(trough), draws.taken())
+        })
     }
 
     /// Channels thin out to nothing at their banks, and leave strips of what they cut: facets on both sides cut each other

@@ -1,7 +1,10 @@
 //! Where one instance is made, and what it is.
 
+use std::sync::Arc;
+
 use crate::features::body::Body;
 use crate::features::horizon::Horizon;
+use crate::features::reach::Reach;
 use crate::model::domain::Domain;
 use crate::model::interior::Interior;
 use crate::model::values::surface::HorizonSurface;
@@ -38,6 +41,8 @@ pub(crate) enum Frame {
     None,
     /// A unit, by its base.
     Unit(Horizon),
+    /// Along a channel.
+    Along(Arc<Reach>),
 }
 
 /// A volume that is to be.
@@ -62,6 +67,8 @@ pub(crate) enum TakesFrom {
     Anything,
     /// The parent and what lies in it, or the background.
     Parent,
+    /// The parent alone, without what lies in it.
+    ParentItself,
     /// The unit that is open below it, and what lies in it.
     OpenUnit,
     /// Another part of the same instance, an older one; if that takes no part, what that one would take from.

@@ -3,10 +3,10 @@
 /// What a number may be.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
-    low: f64,
-    high: f64,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
     /// Whether the limits themselves are excluded.
-    open: bool,
+    pub(crate) open: bool,
     pub(crate) words: &'static str,
 }
 

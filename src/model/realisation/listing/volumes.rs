@@ -83,7 +83,7 @@ impl Adding<'_> {
         for part in parts {
             let from = match part.from {
                 TakesFrom::Anything => None,
-                TakesFrom::Parent => Some(parent.unwrap_or(BACKGROUND)),
+                TakesFrom::Parent | TakesFrom::ParentItself => Some(parent.unwrap_or(BACKGROUND)),
                 TakesFrom::OpenUnit => Some(self.open),
                 TakesFrom::Part(older) => places[older],
             };
@@ -96,6 +96,7 @@ impl Adding<'_> {
             let mut rules = self.rules_of(feature, format!("{}{}", due.name, part.name), parent);
             rules.from = from;
             rules.above = above;
+            rules.preserve |= part.from == TakesFrom::ParentItself;
             if let Some(facies) = part.facies {
                 rules.facies.clone_from(&self.model.facies[facies].name);
             }
