@@ -123,7 +123,7 @@ impl Body {
     }
 }
 
-/// A trough: a base with u across and v along, closed by a top ruled between its two rims.
+/// A trough: a base with u across and v along, closed by a top between its two rims, most often a ruled one.
 ///
 /// The rims (u = first and last) are the *same* control points in both sheets, so that base and top
 /// share their edges exactly (\[J19\] Fig. 4: CP2 of the top is CP7 of the base). The two ends are
@@ -147,6 +147,9 @@ pub enum TroughError {
     /// A part's end is no place between its ends.
     #[error(transparent)]
     Part(#[from] RefineError),
+    /// Base and top do not share their rims.
+    #[error("its base and its top have different rims")]
+    Rims,
 }
 
 /// Of a raised bank: its height, in steps from the rim's neighbour to the rim.
@@ -167,12 +170,29 @@ impl Trough {
         })
     }
 
+    /// Closes a base by a top of its own, with the same v and the same control points at its rims.
+    pub fn under(base: Surface, top: Surface, sections: Vec<f64>) -> Result<Self, TroughError> {
+        let rows = |sheet: &Surface| {
+            let (rows, columns) = (sheet.knots_u().count(), sheet.knots_v().count());
+            let row = |at: usize| sheet.net()[at * columns..(at + 1) * columns].to_vec();
+            [row(0), row(rows - 1)]
+        };
+        if base.knots_v() != top.knots_v() || rows(&base) != rows(&top) {
+            return Err(TroughError::Rims);
+        }
+        Ok(Self {
+            base,
+            top,
+            sections,
+        })
+    }
+
     /// The base: u across from the left rim to the right one, v along.
     pub fn base(&self) -> &Surface {
         &self.base
     }
 
-    /// The top: u across (degree 1) from the left rim to the right one, v along.
+    /// The top: u across from the left rim to the right one, v along.
     pub fn top(&self) -> &Surface {
         &self.top
     }
@@ -221,35 +241,48 @@ impl Trough {
             nudge.rise / size.z,
         );
         let (rows, columns) = (self.base.knots_u().count(), self.base.knots_v().count());
-        let moved = net.iter().enumerate().map(|(k, p)| {
+        let moved = |(k, p): (usize, &DVec3)| {
             let rims = [k % columns, (rows - 1) * columns + k % columns].map(|at| net[at].xy());
             let (centre, width) = (0.5 * (rims[0] + rims[1]), rims[0].distance(rims[1]));
             let narrower = 2.0 * nudge.rise / width;
             let at = p.xy() - narrower * (p.xy() - centre) + longer * (p.xy() - middle);
             at.extend(p.z + flatter * (high.z - p.z)) + nudge.shift
-        });
-        let (u, v) = (self.base.knots_u().clone(), self.base.knots_v().clone());
-        let base = if self.base.is_rational() {
-            Surface::rational(u, v, moved.collect(), self.base.weights().to_vec())?
-        } else {
-            Surface::new(u, v, moved.collect())?
         };
-        Self::new(base, self.sections.clone())
+        let sheet = |sheet: &Surface| {
+            let (u, v) = (sheet.knots_u().clone(), sheet.knots_v().clone());
+            let net = sheet.net().iter().enumerate().map(moved).collect();
+            if sheet.is_rational() {
+                Surface::rational(u, v, net, sheet.weights().to_vec())
+            } else {
+                Surface::new(u, v, net)
+            }
+        };
+        Ok(Self {
+            base: sheet(&self.base)?,
+            top: sheet(&self.top)?,
+            sections: self.sections.clone(),
+        })
     }
 
     /// The part between two sections, with their v.
     pub fn between(&self, from: f64, to: f64) -> Result<Self, TroughError> {
         let (first, last) = self.base.knots_v().domain();
-        let mut base = self.base.clone();
-        if from > first {
-            base = base.split_v(from)?.1;
-        }
-        if to < last {
-            base = base.split_v(to)?.0;
-        }
+        let part = |sheet: &Surface| {
+            let mut part = sheet.clone();
+            if from > first {
+                part = part.split_v(from)?.1;
+            }
+            if to < last {
+                part = part.split_v(to)?.0;
+            }
+            Ok::<_, RefineError>(part)
+        };
         let within = |v: &f64| (from..=to).contains(v);
-        let sections = self.sections.iter().copied().filter(within).collect();
-        Ok(Self::new(base, sections)?)
+        Ok(Self {
+            base: part(&self.base)?,
+            top: part(&self.top)?,
+            sections: self.sections.iter().copied().filter(within).collect(),
+        })
     }
 
     /// The same trough with its banks continued upwards in their own direction, above the old rims.

@@ -91,7 +91,8 @@ impl ChannelDesign {
         }
     }
 
-    fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
+    /// The section at a fraction of the length, placed: x to the right of the trajectory, y = elevation.
+    pub(super) fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
         let section = self.section(fraction);
         let origin = match self.origin {
             Origin::TopCentre => 0.0,
@@ -109,7 +110,8 @@ impl ChannelDesign {
         })
     }
 
-    fn is_constant(&self) -> bool {
+    /// Whether the section is the same all along.
+    pub(super) fn is_constant(&self) -> bool {
         [&self.width, &self.depth, &self.asymmetry, &self.top]
             .into_iter()
             .chain(self.left_angle.iter())

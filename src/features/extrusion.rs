@@ -97,6 +97,17 @@ pub struct Limits {
     pub constant: bool,
 }
 
+/// Rows of control points that were carried along a trajectory.
+#[derive(Clone, Debug)]
+pub struct Carried {
+    /// The knots of all rows, along the trajectory.
+    pub along: KnotVector,
+    /// The rows, in the order of the template's points.
+    pub rows: Vec<Vec<DVec3>>,
+    /// The v of the sections: there, and only there, the rows are exactly the template's points.
+    pub sections: Vec<f64>,
+}
+
 /// Carries a template along a trajectory.
 ///
 /// `section` gives the template at a fraction 0..1 of the length; every call must return the same
@@ -108,8 +119,27 @@ pub fn extrude<E: std::error::Error>(
     limits: Limits,
     section: &dyn Fn(f64) -> Result<PlacedSection, E>,
 ) -> Result<(Surface, Vec<f64>), ExtrusionError<E>> {
+    let first = section(0.0).map_err(|error| ExtrusionError::Section(error, 0.0))?;
+    let count = first.points.len();
+    let carried = carry(trajectory, limits, &[0, count / 2, count - 1], section)?;
+    let across = KnotVector::uniform(degree, carried.rows.len())
+        .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
+    let surface = Surface::new(across, carried.along, carried.rows.concat())
+        .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
+    Ok((surface, carried.sections))
+}
+
+/// Carries the points of a template along a trajectory, as rows of control points; those of the rows in `guides` keep to the
+/// template within its tolerance.
+pub fn carry<E: std::error::Error>(
+    trajectory: &Trajectory,
+    limits: Limits,
+    guides: &[usize],
+    section: &dyn Fn(f64) -> Result<PlacedSection, E>,
+) -> Result<Carried, ExtrusionError<E>> {
     let builder = Builder {
         trajectory,
+        guides,
         section,
     };
     builder.check_room()?;
@@ -121,12 +151,12 @@ pub fn extrude<E: std::error::Error>(
         let (along, rows) = builder.rows(&stations)?;
         let refined = builder.refine(&stations, &along, &rows)?;
         if refined.len() == stations.len() {
-            let across = KnotVector::uniform(degree, rows.len())
-                .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
             builder.check_folds(&along, &rows)?;
-            let surface = Surface::new(across, along, rows.concat())
-                .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
-            return Ok((surface, builder.parameters(&stations)));
+            return Ok(Carried {
+                along,
+                rows,
+                sections: builder.parameters(&stations),
+            });
         }
         stations = refined;
         if stations.len() > MOST_SECTIONS {
@@ -157,6 +187,7 @@ fn halved(stations: &[f64], chosen: impl Fn(usize) -> bool) -> Vec<f64> {
 
 struct Builder<'a, E: std::error::Error> {
     trajectory: &'a Trajectory,
+    guides: &'a [usize],
     section: &'a dyn Fn(f64) -> Result<PlacedSection, E>,
 }
 
@@ -188,15 +219,15 @@ impl<E: std::error::Error> Builder<'_, E> {
             .map_err(|error| ExtrusionError::Interpolation(error.to_string()))
     }
 
-    /// Stations with new ones where the middle and the outer rows leave the template.
+    /// Stations with new ones where the guides leave the template.
     fn refine(
         &self,
         stations: &[f64],
         along: &KnotVector,
         rows: &[Vec<DVec3>],
     ) -> Result<Vec<f64>, ExtrusionError<E>> {
-        let guides = [0, rows.len() / 2, rows.len() - 1];
-        let curves = guides
+        let curves = self
+            .guides
             .iter()
             .map(|&row| Curve::new(along.clone(), rows[row].clone()))
             .collect::<Result<Vec<_>, _>>()
@@ -208,7 +239,7 @@ impl<E: std::error::Error> Builder<'_, E> {
                 let s = pair[0] + (pair[1] - pair[0]) * probe;
                 let (place, section) = self.place(s)?;
                 let along = place.tangent().extend(0.0);
-                for (curve, &row) in curves.iter().zip(&guides) {
+                for (curve, &row) in curves.iter().zip(self.guides) {
                     let miss = curve.point(s / length) - stand(&place, section.points[row]);
                     // What lies along the trajectory is only a shift of parameter.
                     if (miss - along * along.dot(miss)).length() > section.tolerance {

@@ -17,6 +17,7 @@ pub mod meander;
 mod nudge;
 pub mod pinch_out;
 pub mod profile;
+pub mod reach;
 pub mod section;
 pub mod side;
 pub mod thickness;

@@ -7,7 +7,7 @@ use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde_json::json;
 
-use super::spec::Place;
+use super::place::Place;
 
 /// More defects than this are counted but not listed: nobody reads them, and a broken generator can make millions.
 const MOST_LISTED: usize = 200;

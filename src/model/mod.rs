@@ -8,21 +8,25 @@
 
 mod cells;
 mod check;
+mod checker;
 mod defects;
 mod deserialize;
-mod distribution;
+mod domain;
+mod draft;
 mod draws;
 mod expression;
+mod facies;
 mod file;
 mod formula;
 mod interior;
 mod json_text;
+mod kinds;
 pub mod meshing;
+mod nature;
 mod overrides;
 pub mod owner;
+mod place;
 pub mod plan;
-mod profile;
-mod quantity;
 mod read;
 pub mod realisation;
 pub mod remarks;
@@ -33,23 +37,36 @@ mod source;
 mod spec;
 mod stream;
 mod suggest;
+mod tables;
 mod template;
 mod toml_text;
 mod tree;
+mod values;
 
 pub use defects::{Defect, Defects};
-pub use distribution::{Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS};
+pub use domain::Domain;
 pub use expression::{EvaluationError, Expression, ExpressionError};
+pub use facies::{Facies, Property, Rgb};
 pub use formula::FUNCTIONS;
 pub use interior::{Interior, InteriorError};
-pub use profile::Profile;
-pub use quantity::Quantity;
+pub use kinds::FeatureKind;
+pub use kinds::channel::{ChannelSpec, SectionOrigin};
+pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
+pub use kinds::ellipsoid::EllipsoidSpec;
+pub use kinds::horizon::HorizonSpec;
+pub use kinds::made::Bound;
+pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
+pub use place::{Note, Place};
 pub use schema::schema;
 pub use source::{Format, LARGEST_FILE, ReadError, Source};
-pub use spec::{
-    Belt, Bound, ChannelSpec, ClinoformsSpec, Domain, EllipsoidSpec, Facies, Feature, FeatureKind,
-    HorizonSpec, HorizonSurface, Interfingering, Model, Note, Pick, Place, Property, Rgb,
-    SectionOrigin, Selector, TrajectorySpec,
-};
+pub use spec::{Feature, Model};
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};
+pub use values::distribution::{
+    Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
+};
+pub use values::profile::Profile;
+pub use values::quantity::Quantity;
+pub use values::selector::{Pick, Selector};
+pub use values::surface::HorizonSurface;
+pub use values::trajectory::TrajectorySpec;

@@ -5,21 +5,21 @@
 //! no surface (bends tighter than the half-width, necks, impossible meanders) are drawn again as a
 //! whole, never adjusted, and counted with their reasons.
 
+mod apart;
 mod listing;
+mod making;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use glam::DVec2;
-use rayon::prelude::*;
+use apart::Apart;
+use listing::Listing;
+use listing::volumes::Volumes;
 
-use listing::{Listing, Planned, extent};
-
-use super::draws::{self, Drawn, Rejected, Surroundings};
-use super::interior::Interior;
+use super::draws::{self, Rejected};
 use super::rules::{Rules, VolumeRules};
 use super::selection::Selection;
 use super::spec::Model;
-use crate::features::body::{Body, Nudge};
+use crate::features::body::Body;
 use crate::features::extent::Extent;
 
 /// Most attempts at one instance before its distributions are called impossible.
@@ -126,30 +126,27 @@ impl Realisation {
     ) -> Result<Self, RealisationError> {
         let mut list = Listing::new(model, selection, step)?;
         list.instances(None, "", "")?;
+        let made = making::make_all(model, &list)?;
+        let extent = list.extent()?;
+        let mut counts: BTreeMap<(Option<usize>, &'static str), u32> = BTreeMap::new();
+        for reason in list.rejected.iter().copied() {
+            *counts.entry(reason).or_default() += 1;
+        }
+        for (due, made) in list.due.iter().zip(&made) {
+            for reason in &made.rejected {
+                *counts.entry((Some(due.feature), reason)).or_default() += 1;
+            }
+        }
+        let Volumes {
+            rules: volumes,
+            mut instances,
+        } = Volumes::of(model, selection, &list, made)?;
         let Listing {
-            volumes,
-            planned,
-            rejected,
-            bounds,
             drawn,
             decisions,
             levels,
             ..
         } = list;
-        let extent = extent(&model.domain, &bounds)?;
-        let made = realise_all(model, &planned, &volumes)?;
-        let mut instances = Vec::with_capacity(made.len());
-        let mut counts: BTreeMap<(Option<usize>, &'static str), u32> = BTreeMap::new();
-        for reason in rejected {
-            *counts.entry(reason).or_default() += 1;
-        }
-        for (instance, rejected) in made {
-            for reason in rejected {
-                let whose = Some(instance.feature);
-                *counts.entry((whose, reason)).or_default() += 1;
-            }
-            instances.push(instance);
-        }
         if step > 0.0 {
             let apart = Apart {
                 step,
@@ -184,94 +181,6 @@ impl Realisation {
     pub fn volume(&self, name: &str) -> Option<usize> {
         self.volumes.iter().position(|volume| volume.name == name)
     }
-}
-
-/// How bodies come apart whose contacts coincide.
-struct Apart<'a> {
-    /// The step of age (m).
-    step: f64,
-    /// Of level horizons: where they were, and where they are now (m).
-    levels: &'a [[f64; 2]],
-    /// Levels nearer than this are the same (m).
-    same: f64,
-}
-
-impl Apart<'_> {
-    /// Gives each body a change of its own among those that it may meet; but the same to bodies that are the same, which then
-    /// share a shell: a repeated body leaves no skin of the older one.
-    fn move_bodies(
-        &self,
-        instances: &mut [Instance],
-        volumes: &[VolumeRules],
-    ) -> Result<(), RealisationError> {
-        let boxes: Vec<_> = instances.iter().map(|one| one.body.bounds()).collect();
-        let repeated = repeated(instances);
-        let mut ranks = vec![0_u32; instances.len()];
-        for at in 0..instances.len() {
-            if matches!(instances[at].body, Body::Side(_)) {
-                continue;
-            }
-            if let Some(first) = repeated[at] {
-                ranks[at] = ranks[first];
-                instances[at].body = instances[first].body.clone();
-                continue;
-            }
-            let (low, high) = boxes[at];
-            let meets = |older: &usize| {
-                let (from, to) = boxes[*older];
-                let slack = self.step * f64::from(ranks[*older] + 2);
-                from.cmple(high + slack).all() && (low - slack).cmple(to).all()
-            };
-            let older = (0..at).filter(meets).map(|older| ranks[older]).max();
-            ranks[at] = older.unwrap_or(0) + 1;
-            let body = &instances[at].body;
-            let body = body.nudged(&self.nudge(body, ranks[at]));
-            instances[at].body = body.map_err(|error| RealisationError::Impossible {
-                volume: volumes[instances[at].volume].name.clone(),
-                reason: error.to_string(),
-            })?;
-        }
-        Ok(())
-    }
-
-    /// The change of the body of a rank.
-    fn nudge(&self, body: &Body, rank: u32) -> Nudge {
-        /// Turns of neighbouring ranks, as far from each other as they can be (the golden angle, rad).
-        const TURN: f64 = 2.399_963_229_728_653;
-        /// How far bodies move in plan, in steps; their ends move farther.
-        const ASIDE: f64 = 0.3;
-        /// Horizons move by whole steps; bodies shall not move with them.
-        const BETWEEN: f64 = 0.381_966_011_250_105;
-        let rank = f64::from(rank);
-        // A body that ends at a level horizon still does.
-        let level = body.level_top(self.same);
-        let ends = |[from, _]: &&[f64; 2]| level.is_some_and(|top| (top - from).abs() <= self.same);
-        let lowest = self.levels.iter().filter(ends).map(|[from, to]| to - from);
-        Nudge {
-            rise: (rank + BETWEEN) * self.step,
-            reach: (rank + BETWEEN) * self.step,
-            shift: (ASIDE * self.step * DVec2::from_angle(rank * TURN))
-                .extend(lowest.reduce(f64::min).unwrap_or(0.0)),
-        }
-    }
-}
-
-/// By instance: the first one with the same body, if that is older.
-fn repeated(instances: &[Instance]) -> Vec<Option<usize>> {
-    let mut by_box: BTreeMap<[u64; 6], Vec<usize>> = BTreeMap::new();
-    let mut first = Vec::with_capacity(instances.len());
-    for (at, one) in instances.iter().enumerate() {
-        let alike = by_box.entry(one.body.bounds_bits()).or_default();
-        let same = alike
-            .iter()
-            .copied()
-            .find(|older| instances[*older].body == one.body);
-        if same.is_none() {
-            alike.push(at);
-        }
-        first.push(same);
-    }
-    first
 }
 
 /// Draws something that is no single instance, again and again until it is possible; with the reasons of what was
@@ -311,97 +220,6 @@ fn draw_whole<T>(
         reasons: counted(&reasons),
         last,
     })
-}
-
-/// An instance, with the reasons of its rejected attempts.
-type Made = (Instance, Vec<&'static str>);
-
-/// Draws and builds all instances, parents before their children.
-fn realise_all(
-    model: &Model,
-    planned: &[Planned],
-    volumes: &[VolumeRules],
-) -> Result<Vec<Made>, RealisationError> {
-    let deepest = planned.iter().map(|one| one.depth).max().unwrap_or(0);
-    let mut made: Vec<Option<Made>> = vec![None; planned.len()];
-    for depth in 0..=deepest {
-        let generation: Vec<&Planned> = planned.iter().filter(|one| one.depth == depth).collect();
-        let parents = parents(model, &generation, &made, volumes)?;
-        let generation: Vec<_> = generation
-            .into_par_iter()
-            .map(|one| {
-                let place = Surroundings {
-                    domain: &model.domain,
-                    parent: one.parent.and_then(|parent| parents.get(&parent)),
-                };
-                realise(model, one, &volumes[one.volume].name, place)
-            })
-            .collect();
-        for result in generation {
-            let one = result?;
-            let at = one.0.volume - 1;
-            made[at] = Some(one);
-        }
-    }
-    Ok(made.into_iter().flatten().collect())
-}
-
-/// What those parents hold by which their children are placed.
-fn parents(
-    model: &Model,
-    children: &[&Planned],
-    made: &[Option<Made>],
-    volumes: &[VolumeRules],
-) -> Result<BTreeMap<usize, Interior>, RealisationError> {
-    let wanted: BTreeSet<usize> = children
-        .iter()
-        .filter(|one| draws::wants_parent(&model.features[one.feature].kind))
-        .filter_map(|one| one.parent)
-        .collect();
-    let bodies: Vec<&Instance> = wanted
-        .iter()
-        .filter_map(|volume| made[volume - 1].as_ref().map(|(parent, _)| parent))
-        .collect();
-    let interior = |parent: &Instance| {
-        let interior =
-            Interior::of(&parent.body).map_err(|error| RealisationError::Impossible {
-                volume: volumes[parent.volume].name.clone(),
-                reason: format!("no child can be placed in it: {error}"),
-            })?;
-        Ok((parent.volume, interior))
-    };
-    bodies.into_par_iter().map(interior).collect()
-}
-
-/// Draws and builds one instance.
-fn realise(
-    model: &Model,
-    planned: &Planned,
-    name: &str,
-    place: Surroundings<'_>,
-) -> Result<Made, RealisationError> {
-    if let Some((body, drawn)) = &planned.ready {
-        let instance = Instance {
-            volume: planned.volume,
-            feature: planned.feature,
-            body: body.clone(),
-            drawn: drawn.clone(),
-            rejected: 0,
-        };
-        return Ok((instance, Vec::new()));
-    }
-    let feature = &model.features[planned.feature];
-    let draw = |key: draws::Key<'_>| {
-        let rejected = key.attempt;
-        draws::body(&feature.kind, place, key).map(|Drawn { body, drawn }| Instance {
-            volume: planned.volume,
-            feature: planned.feature,
-            body,
-            drawn,
-            rejected,
-        })
-    };
-    draw_whole(model, &feature.id, &planned.number, draw).map_err(|error| error.of(name))
 }
 
 /// Reasons with how often each occurred, most frequent first.

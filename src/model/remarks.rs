@@ -9,6 +9,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::interior::Interior;
+use super::kinds;
+use super::nature::Volumes;
 use super::owner::Owners;
 use super::realisation::{Instance, Realisation};
 use super::rules::VolumeRules;
@@ -105,13 +107,8 @@ fn misses(realisation: &Realisation, instances: &[&Instance]) -> Option<Remark> 
         low.max(realisation.extent.low()),
         high.min(realisation.extent.high()),
     );
-    let what = match first.body {
-        Body::Trough(_) => {
-            "what a channel leaves out is drawn over the whole domain, so set its `top` and a trajectory (`center`, or `from` and \
-             `to`)"
-        }
-        _ => "set its `center`",
-    };
+    let kind = &realisation.volumes[first.volume].kind;
+    let what = kinds::named(kind).map_or("move it", |kind| kind.nature.placed_by);
     let [low, high] = [low, high].map(|corner| corner.to_array().map(tidy));
     let volumes: Vec<usize> = missing.iter().map(|child| child.volume).collect();
     let list = names(realisation, &volumes);
@@ -170,7 +167,7 @@ pub enum Known {
     BySolids,
 }
 
-/// Which volumes hold nothing, feature by feature, if none of the remarks has told of them. A unit that a clinoform set divides
+/// Which volumes hold nothing, feature by feature, if none of the remarks has told of them. A unit that something divides into many
 /// is meant to have nothing left.
 pub fn say_empty(
     realisation: &Realisation,
@@ -183,7 +180,10 @@ pub fn say_empty(
         Known::BySolids => ["holds", "hold"],
     };
     let volumes = &realisation.volumes;
-    let is_set = |volume: &VolumeRules| volume.kind == "clinoforms";
+    let is_set = |volume: &VolumeRules| {
+        let kind = kinds::named(&volume.kind);
+        kind.is_some_and(|kind| kind.nature.volumes != Volumes::One)
+    };
     let parts = volumes.iter().filter(|part| is_set(part));
     let divided: BTreeSet<usize> = parts
         .filter_map(|part| part.from)

@@ -20,7 +20,7 @@ mod meeting;
 
 use serde::{Deserialize, Serialize};
 
-use super::spec::{Pick, Selector};
+use super::values::selector::{Pick, Selector};
 
 /// The volume that every place belongs to first.
 pub const BACKGROUND: usize = 0;

@@ -1,6 +1,8 @@
 //! Selections: which features and levels take part.
 
-use super::spec::{ClinoformsSpec, Feature, FeatureKind, Model};
+use super::kinds::made::VolumeName;
+use super::nature::Volumes;
+use super::spec::{Feature, Model};
 use super::suggest;
 
 /// What to leave out of a model.
@@ -91,9 +93,13 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     if feature.id == name {
         return Some(Named::Volume);
     }
-    if let FeatureKind::Clinoforms(spec) = &feature.kind {
+    if let Volumes::Many { .. } = feature.kind.nature().volumes {
         let start = format!("{}{}-", path(model, feature), feature.id);
-        return names_part(spec, name.strip_prefix(&start)?, name);
+        let named = feature.kind.volume_name(name.strip_prefix(&start)?)?;
+        return Some(match named {
+            VolumeName::Volume => Named::Volume,
+            VolumeName::First => Named::FirstBelt(name.rsplit_once('/').map_or(name, |all| all.0)),
+        });
     }
     let (path, own) = name.rsplit_once('/').unwrap_or(("", name));
     let rest = own.strip_prefix(&feature.id)?;
@@ -109,29 +115,6 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
         Some(parent) => matches!(names(model, parent, path), Some(Named::Volume)),
     };
     (is_own && is_in_parent).then_some(Named::Volume)
-}
-
-/// What `2` or `2/distal` is of a set of clinoforms.
-fn names_part<'a>(spec: &ClinoformsSpec, rest: &str, name: &'a str) -> Option<Named<'a>> {
-    let (own, belt) = match rest.split_once('/') {
-        Some((own, belt)) => (own, Some(belt)),
-        None => (rest, None),
-    };
-    // Without belts, what is below the first sheet is the parent's.
-    let first = usize::from(spec.belts.is_empty());
-    let most = spec.sheets.unwrap_or(usize::MAX);
-    if !(first..=most).contains(&number(own)?) {
-        return None;
-    }
-    let Some(belt) = belt else {
-        return Some(Named::Volume);
-    };
-    match spec.belts.iter().position(|one| one.name == belt)? {
-        0 => Some(Named::FirstBelt(
-            name.split_at(name.len() - belt.len() - 1).0,
-        )),
-        _ => Some(Named::Volume),
-    }
 }
 
 /// A volume's number, written as the program writes it.
@@ -150,10 +133,11 @@ fn path(model: &Model, feature: &Feature) -> String {
 
 /// A feature's own name in that of its first volume.
 fn first_volume(feature: &Feature) -> String {
-    match feature.kind {
-        FeatureKind::Clinoforms(_) => format!("{}-1", feature.id),
-        _ if feature.count > 1 => format!("{}-1", feature.id),
-        _ => feature.id.clone(),
+    let is_one = feature.kind.nature().volumes == Volumes::One && feature.count == 1;
+    if is_one {
+        feature.id.clone()
+    } else {
+        format!("{}-1", feature.id)
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::spec::Place;
+use super::place::Place;
 
 /// Larger files are refused: a model file is written by hand or by a small script.
 pub const LARGEST_FILE: u64 = 64 * 1024 * 1024;

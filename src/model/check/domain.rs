@@ -1,12 +1,11 @@
 //! The domain: the block that is modelled.
 
-use super::Checker;
-use super::facies::FaciesList;
-use super::surface::Extent;
+use crate::model::checker::{Checker, Extent};
+use crate::model::domain::Domain;
 use crate::model::file::DomainFile;
 use crate::model::read::{Any, Field};
-use crate::model::spec::Domain;
 use crate::model::tree::NodeId;
+use crate::model::values::facies::FaciesList;
 
 /// A domain thinner than this is a slip, not a model, in metres.
 const THINNEST: f64 = 1e-3;

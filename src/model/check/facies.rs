@@ -1,15 +1,18 @@
-//! The facies: kinds of rock, their colours and properties.
+//! Facies and their rock properties.
 
 use std::collections::BTreeMap;
 
-use super::Checker;
+use crate::model::checker::Checker;
 use crate::model::defects::Defect;
 use crate::model::deserialize::number_remedy;
+use crate::model::domain::Domain;
+use crate::model::facies::{Facies, Property, Rgb};
 use crate::model::file::FaciesFile;
 use crate::model::read::{Any, Field};
-use crate::model::spec::{Domain, Facies, Feature, FeatureKind, Property, Rgb};
+use crate::model::spec::Feature;
 use crate::model::suggest;
 use crate::model::tree::{Entry, NodeId, Value, quoted};
+use crate::model::values::facies::{FaciesList, is_id};
 
 /// Colours of facies that have none of their own, in turn: muted, and told apart without red against green.
 const PALETTE: [Rgb; 8] = [
@@ -54,31 +57,6 @@ const PALETTE: [Rgb; 8] = [
         b: 0x6b,
     },
 ];
-
-/// The facies of the file: their names are known even where they are broken, so references can be judged.
-pub(super) struct FaciesList {
-    names: Vec<String>,
-    index: BTreeMap<String, usize>,
-    nodes: Vec<NodeId>,
-    read: Vec<Option<Facies>>,
-    whole: bool,
-}
-
-impl FaciesList {
-    pub(super) fn finished(self) -> Option<Vec<Facies>> {
-        self.whole
-            .then(|| self.read.into_iter().collect::<Option<Vec<_>>>())
-            .flatten()
-    }
-
-    pub(super) fn find(&self, name: &str) -> Option<usize> {
-        self.index.get(name).copied()
-    }
-
-    pub(super) fn names(&self) -> Vec<&str> {
-        self.names.iter().map(String::as_str).collect()
-    }
-}
 
 impl Checker<'_> {
     pub(super) fn all_facies(&self, field: Field<Any>, root: NodeId) -> FaciesList {
@@ -311,24 +289,6 @@ impl Checker<'_> {
         color
     }
 
-    pub(super) fn known_facies(
-        &self,
-        node: NodeId,
-        name: &str,
-        facies: &FaciesList,
-    ) -> Option<usize> {
-        let found = facies.find(name);
-        if found.is_none() {
-            self.reader.wrong(
-                node,
-                format!("there is no facies {}", quoted(name)),
-                self.reader
-                    .hint(|| suggest::name(name, &facies.names(), "facies")),
-            );
-        }
-        found
-    }
-
     pub(super) fn note_unused_facies(
         &mut self,
         facies: &FaciesList,
@@ -339,8 +299,8 @@ impl Checker<'_> {
         used[domain.facies] = true;
         for feature in features {
             used[feature.facies] = true;
-            if let FeatureKind::Clinoforms(set) = &feature.kind {
-                set.belts.iter().for_each(|belt| used[belt.facies] = true);
+            for facies in feature.kind.more_facies() {
+                used[facies] = true;
             }
         }
         for (i, name) in facies.names.iter().enumerate() {
@@ -357,14 +317,6 @@ impl Checker<'_> {
 /// Whether an unknown key is more likely a known one misspelt than a property of its own.
 fn slip(key: &str, known: &[&str]) -> bool {
     key.chars().count() >= 4 && suggest::nearest(key, known).is_some()
-}
-
-/// Whether a name may stand in the names of volumes.
-pub(super) fn is_id(name: &str) -> bool {
-    !name.is_empty()
-        && name
-            .chars()
-            .all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_')
 }
 
 fn parse_color(text: &str) -> Option<Rgb> {

@@ -1,28 +1,17 @@
 //! How features hang together: ids, parents, levels, numbers of instances.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::Checker;
-use super::clinoforms::MOST_SHEETS;
-use super::facies::FaciesList;
-use super::feature::{DEEPEST_LEVEL, Draft, RESERVED};
+use super::feature::RESERVED;
+use crate::model::checker::Checker;
 use crate::model::defects::Defect;
+use crate::model::draft::{DEEPEST_LEVEL, Draft, Lineage, ids};
+use crate::model::nature::{Nature, Volumes};
 use crate::model::suggest;
 use crate::model::tree::quoted;
 
 /// The most instances that a model may have.
 const MOST_OF_ALL: u64 = 100_000;
-
-/// The other features and the facies, which the rules of one feature name.
-pub(super) struct Family<'f> {
-    pub(super) drafts: &'f [Draft],
-    pub(super) index: &'f BTreeMap<String, usize>,
-    /// Which of the drafts is the feature itself.
-    pub(super) own: usize,
-    pub(super) lineages: &'f [Lineage],
-    pub(super) facies: &'f FaciesList,
-}
 
 impl Checker<'_> {
     pub(super) fn check_ids(&self, drafts: &[Draft], index: &BTreeMap<String, usize>) {
@@ -61,7 +50,10 @@ impl Checker<'_> {
             };
             let count = match drafts[other].kind {
                 // How many there are may depend on the draws.
-                Some("clinoforms") => MOST_SHEETS,
+                Some(Nature {
+                    volumes: Volumes::Many { most, .. },
+                    ..
+                }) => most,
                 _ => drafts[other].count.map_or(1, |(_, count)| count),
             };
             let clash = !number.starts_with(['0', '+'])
@@ -224,15 +216,6 @@ impl Checker<'_> {
     }
 }
 
-/// What a feature has from its parents.
-#[derive(Clone, Copy)]
-pub(super) struct Lineage {
-    pub(super) level: u32,
-    instances: u64,
-    /// The forebear without a parent.
-    root: usize,
-}
-
 /// The lineage of feature `start`, from the first of its forebears whose own is known.
 fn lineage(
     drafts: &[Draft],
@@ -268,28 +251,6 @@ fn lineage(
     above
 }
 
-impl<'f> Family<'f> {
-    pub(super) fn is_horizon(&self, feature: usize) -> bool {
-        self.drafts[feature].kind == Some("horizon")
-    }
-
-    /// The horizons that have an id, in order of the list.
-    pub(super) fn horizons(&self) -> Vec<(usize, &'f str)> {
-        let drafts = self.drafts.iter().enumerate();
-        drafts
-            .filter(|(i, _)| self.is_horizon(*i))
-            .filter_map(|(i, draft)| draft.id.as_ref().map(|(_, id)| (i, id.as_str())))
-            .collect()
-    }
-
-    /// Whether all of feature `other` comes before all of the feature itself; `Equal` where that is not so simple, since
-    /// the instances of one family follow each other parent by parent.
-    pub(super) fn age_of(&self, other: usize) -> Ordering {
-        let [other, own] = [other, self.own].map(|i| self.lineages[i].root);
-        other.cmp(&own)
-    }
-}
-
 /// Where each id stands first in the list.
 pub(super) fn first_of_each_id(drafts: &[Draft]) -> BTreeMap<String, usize> {
     let mut index = BTreeMap::new();
@@ -299,11 +260,4 @@ pub(super) fn first_of_each_id(drafts: &[Draft]) -> BTreeMap<String, usize> {
         }
     }
     index
-}
-
-pub(super) fn ids(drafts: &[Draft]) -> Vec<&str> {
-    drafts
-        .iter()
-        .filter_map(|draft| draft.id.as_ref().map(|(_, id)| id.as_str()))
-        .collect()
 }

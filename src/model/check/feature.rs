@@ -1,53 +1,21 @@
 //! The list of features: ids, parents, levels, counts; what a feature is goes by its kind.
 
-use super::Checker;
-use super::facies::{FaciesList, is_id};
-use super::family::{Family, first_of_each_id};
-use crate::model::file::FeatureFile;
+use super::family::first_of_each_id;
+use crate::model::checker::Checker;
+use crate::model::domain::Domain;
+use crate::model::draft::{Draft, Family, FeatureFile};
+use crate::model::kinds;
+use crate::model::kinds::keys::Keys;
+use crate::model::nature::{Children, Copies, Nature, Taking, Within};
 use crate::model::read::{Any, Field};
-use crate::model::spec::{Domain, Feature, FeatureKind};
-use crate::model::suggest;
+use crate::model::spec::Feature;
 use crate::model::tree::{NodeId, Value, quoted};
+use crate::model::values::facies::{FaciesList, is_id};
 
 /// The most instances that one feature may have.
 const MOST_OF_ONE: u64 = 10_000;
-/// The deepest hierarchical level.
-pub(super) const DEEPEST_LEVEL: u32 = 1000;
 /// Names that mean something else already.
 pub(super) const RESERVED: [&str; 2] = ["background", "domain"];
-
-/// What is known of a feature before the list as a whole is judged.
-pub(super) struct Draft {
-    pub(super) node: NodeId,
-    pub(super) id: Option<(NodeId, String)>,
-    pub(super) name: String,
-    pub(super) enabled: bool,
-    pub(super) kind: Option<&'static str>,
-    pub(super) level: Option<(NodeId, u32)>,
-    pub(super) parent: Option<(NodeId, String)>,
-    pub(super) count: Option<(Option<NodeId>, u64)>,
-    file: FeatureFile,
-}
-
-impl Draft {
-    /// The rules of what it takes that the file gives, with their places.
-    pub(super) fn taking_rules(&self) -> Vec<(&'static str, NodeId)> {
-        let removes = match &self.file.removes {
-            Some(Field::Good(at, Any)) => Some(("removes", *at)),
-            _ => None,
-        };
-        let preserve = match &self.file.preserve {
-            Some(Field::Good(at, _)) => Some(("preserve", *at)),
-            _ => None,
-        };
-        removes.into_iter().chain(preserve).collect()
-    }
-
-    /// Whether the file gives a parent that is no name at all.
-    pub(super) fn wrong_parent(&self) -> bool {
-        matches!(self.file.parent, Some(Field::Bad))
-    }
-}
 
 impl Checker<'_> {
     pub(super) fn features(
@@ -87,6 +55,7 @@ impl Checker<'_> {
         let parents = self.parents(&drafts, &index);
         let lineages = self.lineages(&drafts, &parents);
         self.note_disabled_parents(&drafts, &parents);
+        let kinds = kinds::names();
         let mut features = Vec::new();
         for (i, draft) in drafts.iter().enumerate() {
             let family = Family {
@@ -95,6 +64,7 @@ impl Checker<'_> {
                 own: i,
                 lineages: &lineages,
                 facies,
+                kinds: &kinds,
             };
             let feature = self.feature(draft, &family, domain);
             features.extend(feature.map(|feature| Feature {
@@ -115,7 +85,10 @@ impl Checker<'_> {
         let id = self.id(&file.id, node);
         let kind = match &file.kind {
             // What was probably meant is checked too, so that one slip hides no other.
-            Field::Good(at, kind) => self.kind_meant(*at, kind),
+            Field::Good(at, kind) => self
+                .kind_meant(*at, kind, &kinds::names())
+                .and_then(kinds::named)
+                .map(|kind| kind.nature),
             Field::Missing => {
                 self.reader.wrong(
                     node,
@@ -186,28 +159,6 @@ impl Checker<'_> {
         }
     }
 
-    /// The kind of that name; where there is none, a defect, and the kind whose name is nearest.
-    fn kind_meant(&self, node: NodeId, kind: &str) -> Option<&'static str> {
-        let known = FeatureKind::NAMES.into_iter().find(|known| *known == kind);
-        known.or_else(|| {
-            let nearest = suggest::nearest(kind, &FeatureKind::NAMES);
-            let remedy = match nearest {
-                Some(known) => format!("did you mean \"{known}\"?"),
-                None => format!("the kinds are: {}", suggest::list(&FeatureKind::NAMES)),
-            };
-            self.reader.wrong(
-                node,
-                format!("there is no kind of feature {}", quoted(kind)),
-                remedy,
-            );
-            nearest
-        })
-    }
-
-    pub(super) fn known_kind(&self, node: NodeId, kind: &str) -> bool {
-        self.kind_meant(node, kind) == Some(kind)
-    }
-
     fn count(&self, node: NodeId, count: u64, name: &str) -> Option<(Option<NodeId>, u64)> {
         if (1..=MOST_OF_ONE).contains(&count) {
             return Some((Some(node), count));
@@ -224,51 +175,71 @@ impl Checker<'_> {
         None
     }
 
-    pub(super) fn level(&self, node: NodeId, level: u64) -> Option<u32> {
-        match u32::try_from(level) {
-            Ok(level) if (1..=DEEPEST_LEVEL).contains(&level) => Some(level),
-            _ => {
-                self.reader.wrong(
-                    node,
-                    format!(
-                        "the level is {level}; levels count from 1 (largest) to {DEEPEST_LEVEL}"
-                    ),
-                    "write 1 for the largest features, 2 for what lies in them, and so on",
-                );
-                None
+    /// A feature may lie in what both its kind and its parent's allow.
+    fn check_parent(&self, draft: &Draft, nature: Nature, family: &Family<'_>) {
+        let Some((at, name)) = &draft.parent else {
+            if let Within::Only { kind, .. } = nature.within
+                && !draft.wrong_parent()
+            {
+                let example = format!("parent = \"the-{kind}\"");
+                let (reader, own) = (&self.reader, &draft.name);
+                reader.missing(draft.node, own, "parent", &example);
+            }
+            return;
+        };
+        let has = format!("{} has the parent {}", draft.name, quoted(name));
+        let parent = family.index.get(name).map(|&parent| &family.drafts[parent]);
+        // Of an unknown parent, or an unknown kind, there is a defect already.
+        let of_kind = parent.and_then(|parent| Some((parent, parent.kind?)));
+        let fits = |remedy: &str, fits: fn(Nature, &str) -> bool, wanted: &str| {
+            if let Some((_, kind)) = of_kind
+                && !fits(kind, wanted)
+            {
+                let message = format!("{has}, which is of the kind {}", kind.name);
+                self.reader.wrong(*at, message, remedy);
+            }
+        };
+        match nature.within {
+            Within::Domain { why, remedy } => {
+                self.reader.wrong(*at, format!("{has}, but {why}"), remedy);
+            }
+            Within::Unit { remedy } => fits(remedy, |kind, _| kind.is_base, ""),
+            Within::Only { kind, remedy } => fits(remedy, |kind, wanted| kind.name == wanted, kind),
+            Within::Anything => {
+                if let Some((parent, Nature { children, .. })) = of_kind
+                    && let Children::None { what, instead } = children
+                {
+                    let remedy = match &parent.parent {
+                        Some((_, outer)) => format!("name {instead}: parent = {}", quoted(outer)),
+                        None => format!("name {instead}"),
+                    };
+                    let message = format!("{has}, {what}, which can have no children");
+                    self.reader.wrong(*at, message, remedy);
+                }
             }
         }
     }
 
-    /// Nothing can lie in a set of clinoforms: its clinothems are not known before the draws.
-    fn check_parent_divides_not(&self, draft: &Draft, family: &Family<'_>) {
-        let Some((at, name)) = &draft.parent else {
-            return;
-        };
-        let parent = family.index.get(name).map(|&parent| &family.drafts[parent]);
-        // Horizons and clinoforms have said already what their parent may be.
-        let own = draft
-            .kind
-            .is_some_and(|kind| ["horizon", "clinoforms"].contains(&kind));
-        if let Some(parent) = parent
-            && parent.kind == Some("clinoforms")
-            && !own
+    /// Reports a `count` of what there is only one of, and rules that the kind itself decides.
+    fn check_nature(&self, draft: &Draft, nature: Nature) {
+        if let Copies::One(what) | Copies::OneEach(what) = nature.copies
+            && let Some((Some(at), count)) = draft.count
+            && count != 1
         {
-            let remedy = match &parent.parent {
-                Some((_, unit)) => {
-                    format!("name the horizon of its unit: parent = {}", quoted(unit))
-                }
-                None => "name the horizon of its unit".to_owned(),
-            };
             self.reader.wrong(
-                *at,
+                at,
                 format!(
-                    "{} has the parent {}, a set of clinoforms, which can have no children",
-                    draft.name,
-                    quoted(name)
+                    "the count of {} is {count}, but there is only one of {what}",
+                    draft.name
                 ),
-                remedy,
+                "leave `count` out, and write a feature for each",
             );
+        }
+        if let Taking::ByKind { how, remedy } = nature.taking {
+            for (key, node) in draft.taking_rules() {
+                let message = format!("{} has `{key}`, but {how}", draft.name);
+                self.reader.wrong(node, message, remedy);
+            }
         }
     }
 
@@ -278,16 +249,17 @@ impl Checker<'_> {
         family: &Family<'_>,
         domain: Option<&Domain>,
     ) -> Option<Feature> {
-        let kind = match draft.kind {
-            Some("channel") => self.channel(draft, domain).map(FeatureKind::Channel),
-            Some("ellipsoid") => self.ellipsoid(draft, domain).map(FeatureKind::Ellipsoid),
-            Some("horizon") => self
-                .horizon(draft, family, domain)
-                .map(FeatureKind::Horizon),
-            Some("clinoforms") => self.clinoforms(draft, family).map(FeatureKind::Clinoforms),
-            _ => None,
-        };
-        self.check_parent_divides_not(draft, family);
+        let kind = draft.kind.and_then(|nature| {
+            self.check_nature(draft, nature);
+            self.check_parent(draft, nature, family);
+            let read = kinds::named(nature.name)?.read;
+            read(&mut Keys {
+                checker: &mut *self,
+                draft,
+                family,
+                domain,
+            })
+        });
         // Without a kind nobody knows which keys are wrong.
         if draft.kind.is_some() {
             self.reader.close(draft.node, &draft.name);

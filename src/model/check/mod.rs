@@ -1,30 +1,19 @@
 //! From text to a checked [`Model`], with every defect found on the way.
 
-mod belts;
-mod channel;
-mod clinoforms;
 mod domain;
-mod ellipsoid;
 mod facies;
 mod family;
 mod feature;
-mod heights;
-mod horizon;
-mod isochore;
-mod quantity;
-mod selector;
-mod surface;
-mod trajectory;
-mod tuple;
-mod world;
 
 use std::sync::Arc;
 
+use super::checker::Checker;
 use super::defects::{Collector, Defect, Defects, Span, Text};
 use super::file::ModelFile;
+use super::place::Note;
 use super::read::{Any, Field, Reader};
 use super::source::{Format, Source};
-use super::spec::{Model, Note, Place};
+use super::spec::Model;
 use super::tree::{NodeId, Tree, Value};
 use super::{json_text, overrides, toml_text};
 
@@ -83,17 +72,6 @@ fn texts_of(source: &Source) -> Arc<Vec<Text>> {
         .iter()
         .map(|assignment| Text::new("--set".to_owned(), assignment.clone()));
     Arc::new(std::iter::once(file).chain(arguments).collect())
-}
-
-/// A value is wrong, and the defect is reported: what [`Option`] cannot say of a key that may be left out.
-struct Reported;
-
-struct Checker<'t> {
-    reader: Reader<'t>,
-    texts: &'t [Text],
-    notes: Vec<Note>,
-    /// Where the local origin lies in the world, as far as it is known.
-    origin: [f64; 3],
 }
 
 impl Checker<'_> {
@@ -176,35 +154,5 @@ impl Checker<'_> {
                 None
             }
         }
-    }
-
-    /// A range that has nothing between its ends is a defect.
-    fn no_range(&self, node: NodeId, what: &str, [low, high]: [f64; 2], remedy: &'static str) {
-        let problem = if high < low {
-            "the wrong way round"
-        } else {
-            "empty"
-        };
-        self.reader.wrong(
-            node,
-            format!("{what} from {low} to {high} is {problem}"),
-            remedy,
-        );
-    }
-
-    fn place(&self, node: NodeId) -> Place {
-        let span = self.reader.tree.span(node);
-        self.texts
-            .get(span.text)
-            .map(|text| text.place(span.start))
-            .unwrap_or_default()
-    }
-
-    fn note(&mut self, node: NodeId, message: impl Into<String>) {
-        let place = self.place(node);
-        self.notes.push(Note {
-            message: message.into(),
-            place,
-        });
     }
 }

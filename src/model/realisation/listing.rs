@@ -1,61 +1,58 @@
-//! The list of volumes, in order of evaluation. What is drawn as a whole (horizons, clinoform sets) is drawn here: how many
-//! volumes there are depends on it.
+//! The list of instances, in order of evaluation; and the surfaces through the whole domain, which are decided together
+//! before anything is made.
 
-mod clinothems;
 mod coincidence;
+pub(super) mod volumes;
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
-
 use super::{RealisationError, draw_whole};
-use crate::features::body::Body;
 use crate::features::extent::Extent;
 use crate::features::horizon::Horizon;
-use crate::model::draws::{self, strata};
-use crate::model::rules::{BACKGROUND, VolumeRules};
+use crate::model::draws::Key;
+use crate::model::kinds::made::Bound;
+use crate::model::nature::Copies;
 use crate::model::selection::Selection;
-use crate::model::spec::{Domain, Feature, FeatureKind, HorizonSurface, Model, Selector};
+use crate::model::spec::{Feature, Model};
+use crate::model::values::surface::{self, HorizonSurface};
 use coincidence::Strata;
 
-/// A volume that is to be realised.
-pub(super) struct Planned {
-    pub(super) volume: usize,
+/// An instance that is to be made.
+pub(super) struct Due {
     pub(super) feature: usize,
-    /// The parent's volume.
+    /// Its name, with those of its ancestors.
+    pub(super) name: String,
+    /// Numbers of the instance and its ancestors, outermost first: the key of its draws.
+    pub(super) number: String,
+    /// The parent's place in the list.
     pub(super) parent: Option<usize>,
     /// How many ancestors it has.
     pub(super) depth: usize,
-    /// Numbers of the instance and its ancestors, outermost first: the key of its draws.
-    pub(super) number: String,
-    /// What it holds and what was drawn, if that was drawn before.
-    pub(super) ready: Option<(Body, Vec<(String, f64)>)>,
+    /// What bounds its unit above, if it asked for that.
+    pub(super) top: Option<Horizon>,
+    /// How far it moves so that contacts which coincide are decided by age (m).
+    pub(super) nudge: f64,
 }
 
-/// Lists the volumes in order of evaluation: depth first, children directly after their parent.
+/// Lists the instances in order of evaluation; before that, all surfaces through the whole domain are drawn and decided.
 pub(super) struct Listing<'a> {
     model: &'a Model,
     selection: &'a Selection,
-    pub(super) volumes: Vec<VolumeRules>,
-    pub(super) planned: Vec<Planned>,
+    pub(super) due: Vec<Due>,
     /// The horizons by feature, of those features that are one, whether or not they take part.
     horizons: BTreeMap<usize, DrawnHorizon>,
     /// By feature: the horizon that lies nowhere below this other one.
     above: BTreeMap<usize, usize>,
-    /// The volumes of those horizons so far that take part, by feature.
-    units: BTreeMap<usize, usize>,
     /// The domain's own base and top.
-    pub(super) bounds: [Option<Horizon>; 2],
+    bounds: [Option<Horizon>; 2],
     /// What was drawn for them.
     pub(super) drawn: Vec<(String, f64)>,
     /// By how much contacts that coincide are moved apart for each step in age (m).
     step: f64,
     /// Of level horizons that were moved: from where, and to where (m).
     pub(super) levels: Vec<[f64; 2]>,
-    /// Clinoform sets so far.
-    sets: u32,
-    /// The unit above the last horizon so far.
-    open: usize,
+    /// By kind: instances so far, and features in all.
+    kinds: BTreeMap<&'static str, [u32; 2]>,
     /// Draws that were rejected, by feature; those of the domain have none.
     pub(super) rejected: Vec<(Option<usize>, &'static str)>,
     /// What was decided, in words for the report.
@@ -70,36 +67,23 @@ impl<'a> Listing<'a> {
         selection: &'a Selection,
         step: f64,
     ) -> Result<Self, RealisationError> {
-        let background = VolumeRules {
-            name: "background".to_owned(),
-            feature: "background".to_owned(),
-            kind: "background".to_owned(),
-            level: 0,
-            facies: model.facies[model.domain.facies].name.clone(),
-            parent: None,
-            removes: Selector::Everything,
-            removed_by: Selector::Everything,
-            preserve: false,
-            from: None,
-            above: None,
-        };
         let mut list = Self {
             rejected: Vec::new(),
             decisions: Vec::new(),
             model,
             selection,
-            volumes: vec![background],
-            planned: Vec::new(),
+            due: Vec::new(),
             horizons: BTreeMap::new(),
             above: BTreeMap::new(),
-            units: BTreeMap::new(),
             bounds: [None, None],
             drawn: Vec::new(),
             step,
-            sets: 0,
-            open: BACKGROUND,
+            kinds: BTreeMap::new(),
             levels: Vec::new(),
         };
+        for feature in &model.features {
+            list.kinds.entry(feature.kind.name()).or_default()[1] += 1;
+        }
         list.bounds = [
             list.bound("base", model.domain.base.as_ref())?,
             list.bound("top", model.domain.top.as_ref())?,
@@ -143,8 +127,8 @@ impl<'a> Listing<'a> {
         let mut drawn = BTreeMap::new();
         let mut parameters = Vec::new();
         for (index, feature) in self.model.features.iter().enumerate() {
-            if let FeatureKind::Horizon(spec) = &feature.kind {
-                let draw = |key: draws::Key<'_>| strata::horizon(&spec.surface, key);
+            if let Some(base) = feature.kind.base() {
+                let draw = |key: Key<'_>| surface::horizon(base.surface, key);
                 let ((horizon, own), reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
                 let rejected = reasons.into_iter().map(|reason| (Some(index), reason));
                 self.rejected.extend(rejected);
@@ -171,7 +155,7 @@ impl<'a> Listing<'a> {
         let Some(surface) = surface else {
             return Ok(None);
         };
-        let draw = |key: draws::Key<'_>| strata::horizon(surface, key);
+        let draw = |key: Key<'_>| surface::horizon(surface, key);
         let ((horizon, drawn), reasons) = draw_whole(self.model, "domain", which, draw)?;
         let rejected = reasons.into_iter().map(|reason| (None, reason));
         self.rejected.extend(rejected);
@@ -184,23 +168,22 @@ impl<'a> Listing<'a> {
         Ok(Some(horizon))
     }
 
-    /// Adds the instances of all features with this parent (feature, volume).
+    /// Lists the instances of all features with this parent (feature, place in the list): depth first, children directly after
+    /// their parent.
     pub(super) fn instances(
         &mut self,
         parent: Option<(usize, usize)>,
         path: &str,
         numbers: &str,
     ) -> Result<(), RealisationError> {
-        for (index, feature) in self.model.features.iter().enumerate() {
+        let model = self.model;
+        for (index, feature) in model.features.iter().enumerate() {
             if feature.parent != parent.map(|parent| parent.0)
                 || !self.selection.keeps_feature(feature)
             {
                 continue;
             }
-            if let FeatureKind::Clinoforms(spec) = &feature.kind {
-                self.clinoforms(index, spec, parent, path)?;
-                continue;
-            }
+            let nature = feature.kind.nature();
             for number in 1..=feature.count {
                 let own = if feature.count == 1 {
                     feature.id.clone()
@@ -211,79 +194,88 @@ impl<'a> Listing<'a> {
                 if !self.selection.keeps_volume(&name) {
                     continue;
                 }
-                let mut rules = self.rules_of(feature, &name, parent.map(|parent| parent.1));
-                let ready = match &feature.kind {
-                    FeatureKind::Horizon(spec) => {
-                        rules.from = spec.onlapping.then_some(self.open);
-                        let below = self.above.get(&index);
-                        rules.above = below.and_then(|below| self.units.get(below)).copied();
-                        self.open = self.volumes.len();
-                        self.units.insert(index, self.open);
-                        Some(self.horizon(index)?)
-                    }
-                    _ => None,
+                // Of what there is only one, the draws are the same wherever it lies.
+                let key = match nature.copies {
+                    Copies::One(_) => number.to_string(),
+                    Copies::Any | Copies::OneEach(_) => format!("{numbers}{number}"),
                 };
-                let key = format!("{numbers}{number}");
-                let volume = self.push(rules, index, numbers, key.clone(), ready);
+                let top = feature.kind.top().map(|top| self.top(feature, top));
+                let due = Due {
+                    feature: index,
+                    name: name.clone(),
+                    number: key,
+                    parent: parent.map(|parent| parent.1),
+                    depth: numbers.matches('.').count(),
+                    top: top.transpose()?,
+                    nudge: self.nudge(nature.name),
+                };
+                let at = self.due.len();
+                self.due.push(due);
                 self.instances(
-                    Some((index, volume)),
+                    Some((index, at)),
                     &format!("{name}/"),
-                    &format!("{key}."),
+                    &format!("{numbers}{number}."),
                 )?;
             }
         }
         Ok(())
     }
 
-    fn push(
-        &mut self,
-        rules: VolumeRules,
-        feature: usize,
-        numbers: &str,
-        number: String,
-        ready: Option<(Body, Vec<(String, f64)>)>,
-    ) -> usize {
-        let volume = self.volumes.len();
-        self.planned.push(Planned {
-            volume,
-            feature,
-            parent: rules.parent,
-            depth: numbers.matches('.').count(),
-            number,
-            ready,
-        });
-        self.volumes.push(rules);
-        volume
+    /// How far the next instance of a kind moves so that contacts which coincide are decided by age. The oldest one moves
+    /// farthest: each younger one lies basinward of where it would lie by the one before.
+    fn nudge(&mut self, kind: &'static str) -> f64 {
+        let [so_far, all] = self.kinds.entry(kind).or_default();
+        *so_far += 1;
+        (f64::from(*so_far) - f64::from(*all) - 1.0) * self.step
     }
 
-    /// What lies above a horizon, with what was drawn for it.
-    fn horizon(&self, feature: usize) -> Result<(Body, Vec<(String, f64)>), RealisationError> {
-        let impossible = |reason: String| RealisationError::Impossible {
-            volume: self.model.features[feature].id.clone(),
-            reason,
+    /// What bounds a unit above: the base that a feature names, or, if that takes no part, the next one that does, or the
+    /// domain's top. So it is for a feature that names none, too.
+    fn top(&mut self, feature: &Feature, top: Bound) -> Result<Horizon, RealisationError> {
+        let Bound::Horizon(own) = top else {
+            return self.domain_bound(true);
         };
-        let (horizon, drawn) = self
-            .horizons
-            .get(&feature)
-            .ok_or_else(|| impossible("it is no horizon".to_owned()))?;
-        let side = strata::above(horizon, &self.model.domain).map_err(impossible)?;
-        Ok((Body::Side(side), drawn.clone()))
+        let features = &self.model.features;
+        let stands = |at: &usize| {
+            let base = &features[*at];
+            base.kind.base().is_some() && self.selection.keeps_feature(base)
+        };
+        let top = (own..features.len()).find(stands);
+        if top != Some(own) {
+            let above = top.map_or("the domain's top", |top| features[top].id.as_str());
+            self.decisions.push(format!(
+                "{} reaches up to {above}: {}, its top, takes no part",
+                feature.id, features[own].id
+            ));
+        }
+        match top.and_then(|top| self.horizons.get(&top)) {
+            Some((horizon, _)) => Ok(horizon.clone()),
+            None => self.domain_bound(true),
+        }
     }
 
-    fn rules_of(&self, feature: &Feature, name: &str, parent: Option<usize>) -> VolumeRules {
-        VolumeRules {
-            name: name.to_owned(),
-            feature: feature.id.clone(),
-            kind: feature.kind.name().to_owned(),
-            level: feature.level,
-            facies: self.model.facies[feature.facies].name.clone(),
-            parent,
-            removes: feature.removes.clone(),
-            removed_by: feature.removed_by.clone(),
-            preserve: feature.preserve,
-            from: None,
-            above: None,
+    /// The surface of a feature that is a base, with what was drawn for it.
+    pub(super) fn surface(&self, feature: usize) -> Option<(&Horizon, &[(String, f64)])> {
+        let (horizon, drawn) = self.horizons.get(&feature)?;
+        Some((horizon, drawn))
+    }
+
+    /// The horizon that bounds the domain: its own, or the block's.
+    pub(super) fn domain_bound(&self, top: bool) -> Result<Horizon, RealisationError> {
+        let at = usize::from(top);
+        match &self.bounds[at] {
+            Some(horizon) => Ok(horizon.clone()),
+            None => {
+                Horizon::flat(self.model.domain.z[at]).map_err(|error| impossible_domain(&error))
+            }
         }
+    }
+
+    /// The domain's block between its own base and top.
+    pub(super) fn extent(&self) -> Result<Extent, RealisationError> {
+        let (low, high) = self.model.domain.corners();
+        let [base, top] = self.bounds.each_ref().map(Option::as_ref);
+        Extent::new(low, high, base, top).map_err(|error| impossible_domain(&error))
     }
 }
 
@@ -292,14 +284,4 @@ fn impossible_domain(error: &impl ToString) -> RealisationError {
         volume: "domain".to_owned(),
         reason: error.to_string(),
     }
-}
-
-/// The domain's block between its own base and top.
-pub(super) fn extent(
-    domain: &Domain,
-    bounds: &[Option<Horizon>; 2],
-) -> Result<Extent, RealisationError> {
-    let corner = |i: usize| DVec3::new(domain.x[i], domain.y[i], domain.z[i]);
-    let [base, top] = bounds.each_ref().map(Option::as_ref);
-    Extent::new(corner(0), corner(1), base, top).map_err(|error| impossible_domain(&error))
 }

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::super::VolumeRules;
 use super::*;
-use crate::model::spec::{Pick, Selector};
+use crate::model::values::selector::{Pick, Selector};
 
 /// Whether there is a setting of all other sides at which changing the side of `a` changes the owner (for some side of
 /// `b`), and changing that of `b` does too.

@@ -29,7 +29,8 @@ use points::Points;
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::model::realisation::RealisationError;
 use crate::model::selection::Selection;
-use crate::model::spec::{FeatureKind, HorizonSurface, Model};
+use crate::model::spec::Model;
+use crate::model::values::surface::HorizonSurface;
 
 /// Heights are equal within this fraction of the domain's diagonal, whatever the least thickness: what rounding leaves.
 const ROUNDING: f64 = 1e-12;
@@ -86,16 +87,16 @@ impl Strata {
         let top = bound_nodes(model.domain.top.as_ref());
         let mut layers: Vec<Layer> = Vec::with_capacity(features.len() + 1);
         for &feature in &features {
-            let FeatureKind::Horizon(spec) = &model.features[feature].kind else {
+            let Some(base) = model.features[feature].kind.base() else {
                 continue;
             };
             layers.push(Layer {
                 name: model.features[feature].id.clone(),
                 given: given[&feature].clone(),
                 sheet: given[&feature].clone(),
-                nodes: nodes(&spec.surface, &model.features),
-                points: Points::of(Some(&spec.surface), &given[&feature]),
-                is_onlapping: spec.onlapping,
+                nodes: nodes(base.surface, &model.features),
+                points: Points::of(Some(base.surface), &given[&feature]),
+                is_onlapping: base.is_onlapping,
                 swing: swings.get(&feature).copied().unwrap_or(0.0),
                 above: None,
             });
@@ -166,10 +167,7 @@ fn diagonal(model: &Model) -> f64 {
         .sqrt()
 }
 
-/// The surface of a feature that is a horizon.
+/// The surface of a feature that is a base.
 fn surface(model: &Model, feature: usize) -> Option<&HorizonSurface> {
-    match &model.features[feature].kind {
-        FeatureKind::Horizon(spec) => Some(&spec.surface),
-        _ => None,
-    }
+    Some(model.features[feature].kind.base()?.surface)
 }

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::pinch_out::{self, Absence, Nodes};
-use crate::model::spec::{Feature, FeatureKind, HorizonSurface};
+use crate::model::spec::Feature;
+use crate::model::values::surface::HorizonSurface;
 
 /// The thickness of a bed over the plan.
 pub(super) struct Bed {
@@ -69,12 +70,8 @@ pub(super) fn nodes(surface: &HorizonSurface, features: &[Feature]) -> Option<No
             high: DVec2::new(x[1], y[1]),
             counts: [heights.first()?.len(), heights.len()],
         }),
-        HorizonSurface::Above { horizon, thickness } => {
-            nodes(thickness, features).or_else(|| match &features[*horizon].kind {
-                FeatureKind::Horizon(below) => nodes(&below.surface, features),
-                _ => None,
-            })
-        }
+        HorizonSurface::Above { horizon, thickness } => nodes(thickness, features)
+            .or_else(|| nodes(features[*horizon].kind.base()?.surface, features)),
         HorizonSurface::Level(_)
         | HorizonSurface::Dipping { .. }
         | HorizonSurface::Points { .. } => None,

@@ -7,7 +7,7 @@ use super::deciding::{Deciding, minus};
 use super::points::{Known, Points, tell_thickness};
 use crate::features::horizon::Horizon;
 use crate::features::pinch_out::{Absence, Nodes};
-use crate::model::spec::HorizonSurface;
+use crate::model::values::surface::HorizonSurface;
 use crate::nurbs::Lattice;
 
 /// How much farther a horizon goes on above what cuts it for every other one between, as a share.

@@ -10,7 +10,8 @@ use super::contact::Contact;
 use super::points::{Known, Points, tell_thickness};
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::pinch_out::Nodes;
-use crate::model::spec::{HorizonSurface, Model};
+use crate::model::spec::Model;
+use crate::model::values::surface::HorizonSurface;
 
 /// A horizon that takes part, or the domain's top.
 pub(super) struct Layer {

@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use super::deciding::Layer;
 use crate::features::horizon::Horizon;
 use crate::features::pinch_out::Nodes;
-use crate::model::spec::HorizonSurface;
+use crate::model::values::surface::HorizonSurface;
 
 /// So many places nearest to one without a thickness have none either, within an area.
 const WITHIN: usize = 3;

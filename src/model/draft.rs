@@ -1,0 +1,179 @@
+//! What is known of the features before their own tables are read.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::checker::Checker;
+use super::nature::Nature;
+use super::read::{Any, Field};
+use super::suggest;
+use super::tree::{NodeId, quoted};
+use super::values::facies::FaciesList;
+use super::values::selector::Selector;
+
+/// The deepest hierarchical level.
+pub(crate) const DEEPEST_LEVEL: u32 = 1000;
+
+/// What every feature has, whatever its kind.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FeatureFile {
+    /// Its name: letters, digits, `-` and `_`; unique in the model.
+    #[schemars(regex(pattern = "^[A-Za-z0-9_-]+$"))]
+    pub(crate) id: Field<String>,
+    /// What it is.
+    pub(crate) kind: Field<String>,
+    /// Whether it takes part; true if left out.
+    pub(crate) enabled: Option<Field<bool>>,
+    /// How many are made (of each instance of the parent); 1 if left out.
+    #[schemars(range(min = 1, max = 10000))]
+    pub(crate) count: Option<Field<u64>>,
+    /// Hierarchical level, 1 = largest; if left out, one more than the parent's, or 1.
+    #[schemars(range(min = 1, max = 1000))]
+    pub(crate) level: Option<Field<u64>>,
+    /// Id of the feature that it lies in.
+    pub(crate) parent: Option<Field<String>>,
+    /// The facies of what it bounds.
+    pub(crate) facies: Field<String>,
+    /// What it may remove: "older" (the default), "everything", "nothing", or a list of ids, { kind = … }, { level = … }, { facies = … }.
+    #[schemars(with = "Option<Selector>")]
+    pub(crate) removes: Option<Field<Any>>,
+    /// What may remove it: "younger" (the default), "everything", "nothing" or [], or a list as in `removes`.
+    #[schemars(with = "Option<Selector>")]
+    pub(crate) removed_by: Option<Field<Any>>,
+    /// If true, it removes nothing but its parent and the background.
+    pub(crate) preserve: Option<Field<bool>>,
+}
+
+/// What is known of a feature before the list as a whole is judged.
+pub(crate) struct Draft {
+    pub(crate) node: NodeId,
+    pub(crate) id: Option<(NodeId, String)>,
+    pub(crate) name: String,
+    pub(crate) enabled: bool,
+    pub(crate) kind: Option<Nature>,
+    pub(crate) level: Option<(NodeId, u32)>,
+    pub(crate) parent: Option<(NodeId, String)>,
+    pub(crate) count: Option<(Option<NodeId>, u64)>,
+    pub(crate) file: FeatureFile,
+}
+
+impl Draft {
+    /// The rules of what it takes that the file gives, with their places.
+    pub(crate) fn taking_rules(&self) -> Vec<(&'static str, NodeId)> {
+        let removes = match &self.file.removes {
+            Some(Field::Good(at, Any)) => Some(("removes", *at)),
+            _ => None,
+        };
+        let preserve = match &self.file.preserve {
+            Some(Field::Good(at, _)) => Some(("preserve", *at)),
+            _ => None,
+        };
+        removes.into_iter().chain(preserve).collect()
+    }
+
+    /// Whether the file gives a parent that is no name at all.
+    pub(crate) fn wrong_parent(&self) -> bool {
+        matches!(self.file.parent, Some(Field::Bad))
+    }
+}
+
+/// The other features and the facies, which the rules of one feature name.
+pub(crate) struct Family<'f> {
+    pub(crate) drafts: &'f [Draft],
+    pub(crate) index: &'f BTreeMap<String, usize>,
+    /// Which of the drafts is the feature itself.
+    pub(crate) own: usize,
+    pub(crate) lineages: &'f [Lineage],
+    pub(crate) facies: &'f FaciesList,
+    /// The names of all kinds.
+    pub(crate) kinds: &'f [&'static str],
+}
+
+/// What a feature has from its parents.
+#[derive(Clone, Copy)]
+pub(crate) struct Lineage {
+    pub(crate) level: u32,
+    pub(crate) instances: u64,
+    /// The forebear without a parent.
+    pub(crate) root: usize,
+}
+
+impl<'f> Family<'f> {
+    /// Whether a feature is the base of a unit.
+    pub(crate) fn is_horizon(&self, feature: usize) -> bool {
+        self.drafts[feature].kind.is_some_and(|kind| kind.is_base)
+    }
+
+    /// The horizons that have an id, in order of the list.
+    pub(crate) fn horizons(&self) -> Vec<(usize, &'f str)> {
+        let drafts = self.drafts.iter().enumerate();
+        drafts
+            .filter(|(i, _)| self.is_horizon(*i))
+            .filter_map(|(i, draft)| draft.id.as_ref().map(|(_, id)| (i, id.as_str())))
+            .collect()
+    }
+
+    /// Whether all of feature `other` comes before all of the feature itself; `Equal` where that is not so simple, since
+    /// the instances of one family follow each other parent by parent.
+    pub(crate) fn age_of(&self, other: usize) -> Ordering {
+        let [other, own] = [other, self.own].map(|i| self.lineages[i].root);
+        other.cmp(&own)
+    }
+}
+
+pub(crate) fn ids(drafts: &[Draft]) -> Vec<&str> {
+    drafts
+        .iter()
+        .filter_map(|draft| draft.id.as_ref().map(|(_, id)| id.as_str()))
+        .collect()
+}
+
+impl Checker<'_> {
+    /// The kind of that name; where there is none, a defect, and the kind whose name is nearest.
+    pub(crate) fn kind_meant(
+        &self,
+        node: NodeId,
+        kind: &str,
+        known: &[&'static str],
+    ) -> Option<&'static str> {
+        let kinds = known;
+        let known = kinds.iter().copied().find(|known| *known == kind);
+        known.or_else(|| {
+            let nearest = suggest::nearest(kind, kinds);
+            let remedy = match nearest {
+                Some(known) => format!("did you mean \"{known}\"?"),
+                None => format!("the kinds are: {}", suggest::list(kinds)),
+            };
+            self.reader.wrong(
+                node,
+                format!("there is no kind of feature {}", quoted(kind)),
+                remedy,
+            );
+            nearest
+        })
+    }
+
+    pub(crate) fn known_kind(&self, node: NodeId, kind: &str, family: &Family<'_>) -> bool {
+        self.kind_meant(node, kind, family.kinds) == Some(kind)
+    }
+
+    pub(crate) fn level(&self, node: NodeId, level: u64) -> Option<u32> {
+        match u32::try_from(level) {
+            Ok(level) if (1..=DEEPEST_LEVEL).contains(&level) => Some(level),
+            _ => {
+                self.reader.wrong(
+                    node,
+                    format!(
+                        "the level is {level}; levels count from 1 (largest) to {DEEPEST_LEVEL}"
+                    ),
+                    "write 1 for the largest features, 2 for what lies in them, and so on",
+                );
+                None
+            }
+        }
+    }
+}

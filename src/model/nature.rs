@@ -1,0 +1,101 @@
+//! What must be known of a kind of feature before its table is read.
+
+/// A kind's part in the model, whatever its keys say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Nature {
+    /// The kind's name, as the model file writes it.
+    pub name: &'static str,
+    /// How many of it a feature makes.
+    pub copies: Copies,
+    /// What it may lie in.
+    pub within: Within,
+    /// Whether anything can lie in it.
+    pub children: Children,
+    /// How it takes from what is older.
+    pub taking: Taking,
+    /// How many volumes one of it makes.
+    pub volumes: Volumes,
+    /// Whether it is the base of a unit: a surface through the whole domain.
+    pub is_base: bool,
+    /// What to set so that it lies elsewhere, in words that go before "within the parent".
+    pub placed_by: &'static str,
+}
+
+/// How many of a kind a feature makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Copies {
+    /// As many as its `count` says, in each of its parents.
+    Any,
+    /// One; of this, in words, there can be only one.
+    One(&'static str),
+    /// One in each of its parents; of this, in words, there can be only one.
+    OneEach(&'static str),
+}
+
+/// What a kind may lie in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Within {
+    /// The domain, or any feature that has children.
+    Anything,
+    /// The domain alone.
+    Domain {
+        /// Why, in words that follow "has the parent …, but".
+        why: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The unit above a base, or the domain.
+    Unit {
+        /// What to do about anything else.
+        remedy: &'static str,
+    },
+    /// Features of this kind.
+    Only {
+        /// The kind's name.
+        kind: &'static str,
+        /// What to do about anything else.
+        remedy: &'static str,
+    },
+}
+
+/// Whether anything can lie in a kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Children {
+    /// Any feature that may lie in something.
+    Any,
+    /// Nothing.
+    None {
+        /// What it is, in words.
+        what: &'static str,
+        /// What can have children in its place, in words.
+        instead: &'static str,
+    },
+}
+
+/// How a kind takes from what is older.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taking {
+    /// As `removes` and `preserve` say.
+    ByRules,
+    /// As the kind says; these keys are no keys of it.
+    ByKind {
+        /// How, in words that follow "has `removes`, but".
+        how: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+}
+
+/// How many volumes one of a kind makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Volumes {
+    /// One.
+    One,
+    /// As many as it is drawn with, up to a number; together they leave nothing of what they divide.
+    Many {
+        /// The number.
+        most: u64,
+        /// What one of them is, in a word.
+        one: &'static str,
+    },
+}

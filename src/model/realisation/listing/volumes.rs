@@ -1,0 +1,192 @@
+//! The volumes of what was made, in order of evaluation, and what each of them takes from.
+
+use std::collections::BTreeMap;
+
+use super::{Due, Listing};
+use crate::model::kinds::made::{Part, TakesFrom};
+use crate::model::nature::{self, Nature};
+use crate::model::realisation::making::Built;
+use crate::model::realisation::{Instance, RealisationError};
+use crate::model::rules::{BACKGROUND, VolumeRules};
+use crate::model::selection::Selection;
+use crate::model::spec::{Feature, Model};
+use crate::model::values::selector::Selector;
+
+/// The volumes of a realisation.
+pub(in crate::model::realisation) struct Volumes {
+    /// Their parts in the rules; the first is the background.
+    pub(in crate::model::realisation) rules: Vec<VolumeRules>,
+    /// Their bodies: instance `i` is volume `i + 1`.
+    pub(in crate::model::realisation) instances: Vec<Instance>,
+}
+
+impl Volumes {
+    /// The volumes of all instances, depth first: children directly after their parent.
+    pub(in crate::model::realisation) fn of(
+        model: &Model,
+        selection: &Selection,
+        list: &Listing<'_>,
+        built: Vec<Built>,
+    ) -> Result<Self, RealisationError> {
+        let mut adding = Adding {
+            model,
+            selection,
+            above: &list.above,
+            volumes: Self {
+                rules: vec![background(model)],
+                instances: Vec::new(),
+            },
+            firsts: Vec::with_capacity(built.len()),
+            units: BTreeMap::new(),
+            open: BACKGROUND,
+        };
+        for (due, built) in list.due.iter().zip(built) {
+            adding.add(due, built)?;
+        }
+        Ok(adding.volumes)
+    }
+}
+
+/// Volumes while they are listed.
+struct Adding<'a> {
+    model: &'a Model,
+    selection: &'a Selection,
+    /// By feature: the base that it lies nowhere below.
+    above: &'a BTreeMap<usize, usize>,
+    volumes: Volumes,
+    /// By instance so far, its first volume.
+    firsts: Vec<usize>,
+    /// The volumes of those bases so far that take part, by feature.
+    units: BTreeMap<usize, usize>,
+    /// The unit above the last base so far.
+    open: usize,
+}
+
+impl Adding<'_> {
+    /// Lists the volumes of an instance. What of it takes no part leaves its place to what it would take from.
+    fn add(&mut self, due: &Due, built: Built) -> Result<(), RealisationError> {
+        let feature = &self.model.features[due.feature];
+        let nature = feature.kind.nature();
+        let parts = built.made.parts;
+        self.check_left_out(due, nature, &parts)?;
+        let parent = due.parent.map(|parent| self.firsts[parent]);
+        let above = self.above.get(&due.feature);
+        let above = above.and_then(|below| self.units.get(below)).copied();
+        let rejected = match nature.volumes {
+            nature::Volumes::One => u32::try_from(built.rejected.len()).unwrap_or(u32::MAX),
+            // They are counted by feature alone.
+            nature::Volumes::Many { .. } => 0,
+        };
+        self.firsts.push(self.volumes.rules.len());
+        // By part, its volume, or of what takes no part what it would take from.
+        let mut places: Vec<Option<usize>> = Vec::with_capacity(parts.len());
+        for part in parts {
+            let from = match part.from {
+                TakesFrom::Anything => None,
+                TakesFrom::Parent | TakesFrom::ParentItself => Some(parent.unwrap_or(BACKGROUND)),
+                TakesFrom::OpenUnit => Some(self.open),
+                TakesFrom::Part(older) => places[older],
+            };
+            if !self.keeps(&due.name, &part.name) {
+                places.push(from);
+                continue;
+            }
+            let volume = self.volumes.rules.len();
+            places.push(Some(volume));
+            let mut rules = self.rules_of(feature, format!("{}{}", due.name, part.name), parent);
+            rules.from = from;
+            rules.above = above;
+            rules.preserve |= part.from == TakesFrom::ParentItself;
+            if let Some(facies) = part.facies {
+                rules.facies.clone_from(&self.model.facies[facies].name);
+            }
+            self.volumes.rules.push(rules);
+            self.volumes.instances.push(Instance {
+                volume,
+                feature: due.feature,
+                body: part.body,
+                drawn: part.drawn,
+                rejected,
+            });
+            if nature.is_base {
+                self.open = volume;
+                self.units.insert(due.feature, volume);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a part takes part: neither it nor what it is a part of is left out.
+    fn keeps(&self, name: &str, part: &str) -> bool {
+        let ends = part.match_indices('/').map(|(at, _)| at);
+        ends.chain([part.len()]).all(|end| {
+            self.selection
+                .keeps_volume(&format!("{name}{}", &part[..end]))
+        })
+    }
+
+    /// Of what is to be left out, nothing may be of a part that was not drawn.
+    fn check_left_out(
+        &self,
+        due: &Due,
+        nature: Nature,
+        parts: &[Part],
+    ) -> Result<(), RealisationError> {
+        let nature::Volumes::Many { one, .. } = nature.volumes else {
+            return Ok(());
+        };
+        let number = |name: &str| {
+            let own = name.strip_prefix('-')?.split('/').next()?;
+            own.parse::<usize>().ok()
+        };
+        let last = parts.iter().filter_map(|part| number(&part.name)).max();
+        let last = last.unwrap_or(0);
+        let is_missing = |name: &&String| {
+            let part = name.strip_prefix(due.name.as_str());
+            part.and_then(number).is_some_and(|number| number > last)
+        };
+        match self.selection.without.iter().find(is_missing) {
+            None => Ok(()),
+            Some(name) => Err(RealisationError::Impossible {
+                volume: self.model.features[due.feature].id.clone(),
+                reason: format!(
+                    "there is no `{name}` to leave out: with this seed its last {one} is `{}-{last}`",
+                    due.name
+                ),
+            }),
+        }
+    }
+
+    fn rules_of(&self, feature: &Feature, name: String, parent: Option<usize>) -> VolumeRules {
+        VolumeRules {
+            name,
+            feature: feature.id.clone(),
+            kind: feature.kind.name().to_owned(),
+            level: feature.level,
+            facies: self.model.facies[feature.facies].name.clone(),
+            parent,
+            removes: feature.removes.clone(),
+            removed_by: feature.removed_by.clone(),
+            preserve: feature.preserve,
+            from: None,
+            above: None,
+        }
+    }
+}
+
+/// What every place belongs to first.
+fn background(model: &Model) -> VolumeRules {
+    VolumeRules {
+        name: "background".to_owned(),
+        feature: "background".to_owned(),
+        kind: "background".to_owned(),
+        level: 0,
+        facies: model.facies[model.domain.facies].name.clone(),
+        parent: None,
+        removes: Selector::Everything,
+        removed_by: Selector::Everything,
+        preserve: false,
+        from: None,
+        above: None,
+    }
+}

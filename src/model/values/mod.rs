@@ -1,0 +1,11 @@
+//! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
+
+pub(crate) mod distribution;
+pub(crate) mod facies;
+pub(crate) mod limits;
+pub(crate) mod profile;
+pub(crate) mod quantity;
+pub(crate) mod selector;
+pub(crate) mod surface;
+pub(crate) mod trajectory;
+pub(crate) mod tuple;
