@@ -8,8 +8,8 @@ use std::fmt;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::features::body::{Body, Role};
-use crate::features::side::Side;
+use crate::features::body::Role;
+use crate::model::Nature;
 use crate::model::owner::Owners;
 use crate::model::plan::{AssemblyPlan, Cover, PlannedShell};
 use crate::nurbs::Surface;
@@ -38,23 +38,10 @@ pub enum Party {
         /// Its name.
         name: String,
         /// What it is.
-        kind: Kind,
+        nature: Option<Nature>,
     },
     /// A face of the domain: its west, east, south or north wall, its base or top.
     Domain(&'static str),
-}
-
-/// What is said of a body, and how it is moved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A channel.
-    Channel,
-    /// An ellipsoid.
-    Ellipsoid,
-    /// A horizon.
-    Horizon,
-    /// A clinoform, or a boundary between belts.
-    Clinoform,
 }
 
 /// Two things that lie too near each other.
@@ -105,30 +92,32 @@ impl fmt::Display for Contact {
 impl Contact {
     /// What to change.
     fn remedy(&self) -> String {
-        let kinds = self.parties.each_ref().map(|party| match party {
-            Party::Body { kind, .. } => Some(*kind),
-            Party::Domain(_) => None,
-        });
+        let natures = self.parties.each_ref().map(Party::nature);
         let younger = &self.parties[1];
         let more = length((100.0 * self.gap).max(1e-5 * (self.high - self.low).length()));
-        match kinds {
-            [Some(Kind::Horizon), Some(Kind::Horizon)] => {
-                format!("give the unit between them more thickness there, or none: let {younger} cross it at an angle")
-            }
-            [Some(Kind::Clinoform), _] | [_, Some(Kind::Clinoform)] => {
-                "change `first`, `spacing`, `length` or `toe` of the clinoforms a little, or the surface that they run along"
-                    .to_owned()
-            }
-            [_, Some(Kind::Channel)] => {
-                format!("change `top`, `depth` or `width` of {younger} by {more} or more, or its trajectory")
-            }
-            [_, Some(Kind::Ellipsoid)] => {
-                format!("move the `center` of {younger} by {more} or more, or change its `semi_axes`")
-            }
-            [_, Some(Kind::Horizon)] => {
-                format!("raise or lower {younger} by {more} or more there")
-            }
-            [_, None] => "move one of them".to_owned(),
+        if natures.iter().all(|one| one.is_some_and(|one| one.is_base)) {
+            return format!(
+                "give the unit between them more thickness there, or none: let {younger} cross it at an angle"
+            );
+        }
+        // Of what is made of many sheets, all of them can move.
+        let many = natures.iter().flatten().find(|one| one.is_many());
+        match many.or(natures[1].as_ref()) {
+            Some(nature) => nature
+                .apart
+                .replace("{name}", &younger.to_string())
+                .replace("{by}", &more),
+            None => "move one of them".to_owned(),
+        }
+    }
+}
+
+impl Party {
+    /// What it is, if it is a body.
+    fn nature(&self) -> Option<Nature> {
+        match self {
+            Self::Body { nature, .. } => *nature,
+            Self::Domain(_) => None,
         }
     }
 }
@@ -202,17 +191,10 @@ fn party(plan: &AssemblyPlan, region: usize, doubt: &Doubt) -> Option<Party> {
 }
 
 fn body_party(plan: &AssemblyPlan, volume: usize) -> Party {
-    let planned = plan.bodies.iter().find(|body| body.volume == volume);
-    let kind = match planned.map(|body| &plan.shells[body.shell].body) {
-        Some(Body::Trough(_)) => Kind::Channel,
-        Some(Body::Ellipsoid(_)) => Kind::Ellipsoid,
-        Some(Body::Side(side)) if matches!(**side, Side::Horizon(_)) => Kind::Horizon,
-        _ => Kind::Clinoform,
-    };
     Party::Body {
         volume,
         name: plan.names[volume].clone(),
-        kind,
+        nature: plan.natures[volume],
     }
 }
 
@@ -264,16 +246,8 @@ pub(super) fn search(plan: &AssemblyPlan, owners: &Owners, volumes: &[usize]) ->
     let along = |[older, younger]: [usize; 2]| {
         let parties = [older, younger].map(|at| body_party(plan, bodies[at].0));
         // The sheets of a set meet where they are meant to.
-        let clinoform = |party: &Party| {
-            matches!(
-                party,
-                Party::Body {
-                    kind: Kind::Clinoform,
-                    ..
-                }
-            )
-        };
-        if parties.iter().all(clinoform) {
+        let of_many = |party: &Party| party.nature().is_some_and(|nature| nature.is_many());
+        if parties.iter().all(of_many) {
             return None;
         }
         let interior = owners.interior(bodies[older].0);

@@ -20,10 +20,14 @@
 
 mod net;
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use self::net::{Fit, Net, between};
+use super::body::Role;
 use super::frame::{ClinoformFrame, ClinoformUnit, Shoreline};
+use super::side::{Borders, Ends, Open, Side};
 use crate::nurbs::interpolate::InterpolateError;
 use crate::nurbs::{Function, KnotError, Surface, SurfaceError};
 
@@ -323,6 +327,28 @@ impl Clinoform {
         let v = self.v(q);
         let (top, toe) = (self.top.value(v), self.toe.value(v));
         ((d - top) / (toe - top), v)
+    }
+}
+
+impl Open for Clinoform {
+    fn sheets(&self) -> &[Surface] {
+        std::slice::from_ref(self.surface())
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        Self::holds(self, point)
+    }
+}
+
+impl From<Clinoform> for Side {
+    fn from(clinoform: Clinoform) -> Self {
+        let ends = Ends::Hanging {
+            frame: clinoform.frame().clone(),
+            borders: Borders::Unit {
+                is_tangent: clinoform.is_tangent_to_base(),
+            },
+        };
+        Self::new(Role::Open("clinoform"), Arc::new(clinoform), ends)
     }
 }
 
