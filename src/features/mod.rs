@@ -12,6 +12,7 @@ pub mod extent;
 pub mod extrusion;
 pub mod frame;
 pub mod horizon;
+pub mod lag;
 pub mod meander;
 pub mod pinch_out;
 pub mod profile;
