@@ -9,7 +9,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::features::body::{Body, Role};
-use crate::features::side::Side;
+use crate::features::side::{Borders, Ends};
+use crate::model::Nature;
 use crate::model::owner::Owners;
 use crate::model::plan::{AssemblyPlan, Cover, PlannedShell};
 use crate::nurbs::Surface;
@@ -40,23 +41,10 @@ pub enum Party {
         /// Its name.
         name: String,
         /// What it is.
-        kind: Kind,
+        nature: Option<Nature>,
     },
     /// A face of the domain: its west, east, south or north wall, its base or top.
     Domain(&'static str),
-}
-
-/// What is said of a body, and how it is moved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A channel.
-    Channel,
-    /// An ellipsoid.
-    Ellipsoid,
-    /// A horizon.
-    Horizon,
-    /// A clinoform, or a boundary between belts.
-    Clinoform,
 }
 
 /// Two things that lie too near each other.
@@ -72,16 +60,6 @@ pub struct Contact {
     pub gap: f64,
     /// What they do there.
     pub what: &'static str,
-}
-
-impl Party {
-    /// What it is, if it is a body.
-    fn kind(&self) -> Option<Kind> {
-        match self {
-            Self::Body { kind, .. } => Some(*kind),
-            Self::Domain(_) => None,
-        }
-    }
 }
 
 impl fmt::Display for Party {
@@ -117,27 +95,32 @@ impl fmt::Display for Contact {
 impl Contact {
     /// What to change.
     fn remedy(&self) -> String {
-        let kinds = self.parties.each_ref().map(Party::kind);
+        let natures = self.parties.each_ref().map(Party::nature);
         let younger = &self.parties[1];
         let more = length((100.0 * self.gap).max(1e-5 * (self.high - self.low).length()));
-        match kinds {
-            [Some(Kind::Horizon), Some(Kind::Horizon)] => {
-                format!("give the unit between them more thickness there, or none: let {younger} cross it at an angle")
-            }
-            [Some(Kind::Clinoform), _] | [_, Some(Kind::Clinoform)] => {
-                "change `first`, `spacing`, `length` or `toe` of the clinoforms a little, or the surface that they run along"
-                    .to_owned()
-            }
-            [_, Some(Kind::Channel)] => {
-                format!("change `top`, `depth` or `width` of {younger} by {more} or more, or its trajectory")
-            }
-            [_, Some(Kind::Ellipsoid)] => {
-                format!("move the `center` of {younger} by {more} or more, or change its `semi_axes`")
-            }
-            [_, Some(Kind::Horizon)] => {
-                format!("raise or lower {younger} by {more} or more there")
-            }
-            [_, None] => "move one of them".to_owned(),
+        if natures.iter().all(|one| one.is_some_and(|one| one.is_base)) {
+            return format!(
+                "give the unit between them more thickness there, or none: let {younger} cross it at an angle"
+            );
+        }
+        // Of what is made of many sheets, all of them can move.
+        let many = natures.iter().flatten().find(|one| one.is_many());
+        match many.or(natures[1].as_ref()) {
+            Some(nature) => nature
+                .apart
+                .replace("{name}", &younger.to_string())
+                .replace("{by}", &more),
+            None => "move one of them".to_owned(),
+        }
+    }
+}
+
+impl Party {
+    /// What it is, if it is a body.
+    fn nature(&self) -> Option<Nature> {
+        match self {
+            Self::Body { nature, .. } => *nature,
+            Self::Domain(_) => None,
         }
     }
 }
@@ -211,17 +194,10 @@ fn party(plan: &AssemblyPlan, region: usize, doubt: &Doubt) -> Option<Party> {
 }
 
 fn body_party(plan: &AssemblyPlan, volume: usize) -> Party {
-    let planned = plan.bodies.iter().find(|body| body.volume == volume);
-    let kind = match planned.map(|body| &plan.shells[body.shell].body) {
-        Some(Body::Trough(_)) => Kind::Channel,
-        Some(Body::Ellipsoid(_)) => Kind::Ellipsoid,
-        Some(Body::Side(side)) if matches!(**side, Side::Horizon(_)) => Kind::Horizon,
-        _ => Kind::Clinoform,
-    };
     Party::Body {
         volume,
         name: plan.names[volume].clone(),
-        kind,
+        nature: plan.natures[volume],
     }
 }
 
@@ -273,15 +249,18 @@ pub(super) fn search(plan: &AssemblyPlan, owners: &Owners, volumes: &[usize]) ->
     let along = |[older, younger]: [usize; 2]| {
         let parties = [older, younger].map(|at| body_party(plan, bodies[at].0));
         let reach = NEAR * diagonal;
-        let on = |horizon: usize, clinoform: usize| {
-            let interior = owners.interior(bodies[horizon].0);
-            ends_on(&bodies[clinoform].1.body, &|p| interior.is_near(p, reach))
+        let on = |base: usize, many: usize| {
+            let interior = owners.interior(bodies[base].0);
+            ends_on(&bodies[many].1.body, &|p| interior.is_near(p, reach))
         };
+        let natures = parties.each_ref().map(Party::nature);
+        let is_base = natures.map(|one| one.is_some_and(|one| one.is_base));
+        let is_many = natures.map(|one| one.is_some_and(|one| one.is_many()));
         // The sheets of a set meet where they are meant to, and so they meet the base and the top of their unit.
-        let is_meant = match parties.each_ref().map(Party::kind) {
-            [Some(Kind::Clinoform), Some(Kind::Clinoform)] => true,
-            [Some(Kind::Horizon), Some(Kind::Clinoform)] => on(older, younger),
-            [Some(Kind::Clinoform), Some(Kind::Horizon)] => on(younger, older),
+        let is_meant = match (is_base, is_many) {
+            (_, [true, true]) => true,
+            ([true, _], [_, true]) => on(older, younger),
+            ([_, true], [true, _]) => on(younger, older),
             _ => false,
         };
         if is_meant {
@@ -329,11 +308,19 @@ fn ends_on(body: &Body, near: &dyn Fn(DVec3) -> bool) -> bool {
     let Body::Side(side) = body else {
         return false;
     };
-    let Side::Clinoform(sheet) = &**side else {
+    let Ends::Hanging {
+        borders: Borders::Unit { .. },
+        ..
+    } = side.ends()
+    else {
         return false;
     };
-    let ends = sheet.ends(OF_END);
-    ends.iter().any(|end| end.iter().all(|point| near(*point)))
+    let is_near = |sheet: &Surface, u: f64| {
+        let v = |k: u32| f64::from(k) / f64::from(OF_END - 1);
+        (0..OF_END).all(|k| near(sheet.point(u, v(k))))
+    };
+    let mut sheets = side.sheets().iter();
+    sheets.any(|sheet| is_near(sheet, 0.0) || is_near(sheet, 1.0))
 }
 
 /// Points of a body that are near something.

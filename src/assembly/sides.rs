@@ -1,5 +1,5 @@
-//! Sides of open sheets as closed shells: what a general fuse, which takes closed bodies only, is given of a horizon, a clinoform
-//! or a facies boundary.
+//! Sides of open sheets as closed shells: what a general fuse, which takes closed bodies only, is given of heights over the plan, or
+//! of sheets that hang.
 //!
 //! A sheet reaches beyond wherever it matters, so what closes it there bounds nothing: walls along its borders, a roof and a
 //! floor well outside of the domain. Roofs and floors of different sides lie at different elevations, and sheets of
@@ -11,7 +11,7 @@ use super::kernel::{Curve, Edge, EdgeUse, Face, Surface, Topology};
 use super::splines::{EXACT, along_u, along_v, curve, spline};
 use crate::features::frame::ClinoformFrame;
 use crate::features::horizon::{Horizon, HorizonError, OVERSHOOT};
-use crate::features::side::Side;
+use crate::features::side::{Borders, Ends, Side};
 use crate::nurbs::{self, SurfaceError};
 
 /// How much farther the sheet of each next horizon reaches than that of the one before it, as a fraction of the plan.
@@ -44,24 +44,32 @@ pub(crate) fn shell(
     let (lowest, highest) = side.bounds();
     let margin = size.max_element() * (0.5 + stagger);
     let (floor, roof) = (low.z.min(lowest.z) - margin, high.z.max(highest.z) + margin);
-    match side {
-        Side::Everywhere => Ok(everywhere(
+    match side.ends() {
+        Ends::NoSheet => Ok(everywhere(
             (low - margin).with_z(floor),
             (high + margin).with_z(roof),
         )),
-        Side::Horizon(horizon) => above(horizon.horizon(), [low, high], OVERSHOOT + stagger, roof),
-        Side::Clinoform(clinoform) => {
-            let sheet = clinoform.surface();
-            let (first, last) = sheet.knots_u().domain();
-            let [top, toe] = [first, last].map(|u| sheet.isocurve_u(u));
-            let upper = nurbs::Surface::ruled(&at_level(&top, roof)?, &top)?;
-            let lower = nurbs::Surface::ruled(&toe, &at_level(&toe, floor)?)?;
-            let rows = [vec![upper], vec![sheet.clone()], vec![lower]];
-            Ok(basinward(&rows, clinoform.frame(), margin))
+        Ends::Plan(sheet) => above(sheet.horizon(), [low, high], OVERSHOOT + stagger, roof),
+        Ends::Hanging {
+            frame,
+            borders: Borders::Unit { .. },
+        } => {
+            let (mut upper, mut lower) = (Vec::new(), Vec::new());
+            for sheet in side.sheets() {
+                let (first, last) = sheet.knots_u().domain();
+                let [top, toe] = [first, last].map(|u| sheet.isocurve_u(u));
+                upper.push(nurbs::Surface::ruled(&at_level(&top, roof)?, &top)?);
+                lower.push(nurbs::Surface::ruled(&toe, &at_level(&toe, floor)?)?);
+            }
+            let rows = [upper, side.sheets().to_vec(), lower];
+            Ok(basinward(&rows, frame, margin))
         }
-        Side::Boundary(boundary) => {
-            let downwards = boundary.sheets().iter().map(nurbs::Surface::reversed_u);
-            Ok(basinward(&[downwards.collect()], boundary.frame(), margin))
+        Ends::Hanging {
+            frame,
+            borders: Borders::Beyond,
+        } => {
+            let downwards = side.sheets().iter().map(nurbs::Surface::reversed_u);
+            Ok(basinward(&[downwards.collect()], frame, margin))
         }
     }
 }
@@ -395,7 +403,7 @@ mod tests {
             assert_eq!(position == Position::In, side.holds(point), "{point}");
             held += usize::from(position == Position::In);
         }
-        assert!((40..=360).contains(&held) || matches!(side, Side::Everywhere));
+        assert!((40..=360).contains(&held) || side.is_everywhere());
     }
 
     #[test]
@@ -413,7 +421,7 @@ mod tests {
 
     #[test]
     fn everything_is_closed_too() {
-        assert_holds_the_same(&Side::Everywhere, [LOW, HIGH]);
+        assert_holds_the_same(&Side::everywhere(), [LOW, HIGH]);
     }
 
     #[test]
@@ -446,8 +454,8 @@ mod tests {
                 wander,
             };
             let boundary = FaciesBoundary::new(&design, &clinoform, &unit).unwrap();
-            assert_holds_the_same(&Side::Boundary(boundary), within);
+            assert_holds_the_same(&boundary.into(), within);
         }
-        assert_holds_the_same(&Side::Clinoform(clinoform), within);
+        assert_holds_the_same(&clinoform.into(), within);
     }
 }

@@ -22,12 +22,8 @@ pub enum Role {
     End,
     /// The whole surface of a body without edges.
     Skin,
-    /// The base of the unit above it.
-    Horizon,
-    /// The base of the clinothem above it.
-    Clinoform,
-    /// Where one facies belt passes into the next.
-    FaciesBoundary,
+    /// An open sheet, which divides; by its name.
+    Open(&'static str),
 }
 
 impl Role {
@@ -44,9 +40,7 @@ impl Role {
             Self::Start => "start",
             Self::End => "end",
             Self::Skin => "skin",
-            Self::Horizon => "horizon",
-            Self::Clinoform => "clinoform",
-            Self::FaciesBoundary => "facies-boundary",
+            Self::Open(name) => name,
         }
     }
 }
@@ -54,11 +48,11 @@ impl Role {
 /// What an instance holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
-    /// What flows erode: channels.
+    /// Two sheets that share their rims, between flat ends.
     Trough(Trough),
-    /// What grows in place: concretions, nodules.
+    /// An ellipsoid.
     Ellipsoid(Ellipsoid),
-    /// What lies on the younger side of open sheets: units, clinothems, facies belts.
+    /// What lies on the younger side of open sheets.
     Side(Arc<Side>),
 }
 
@@ -69,11 +63,7 @@ impl Body {
             Self::Trough(trough) => trough.sheets(),
             Self::Ellipsoid(ellipsoid) => Ok(vec![(Role::Skin, ellipsoid.skin().clone())]),
             Self::Side(side) => {
-                let role = match **side {
-                    Side::Horizon(_) => Role::Horizon,
-                    Side::Clinoform(_) | Side::Everywhere => Role::Clinoform,
-                    Side::Boundary(_) => Role::FaciesBoundary,
-                };
+                let role = side.role();
                 Ok(side.sheets().iter().map(|s| (role, s.clone())).collect())
             }
         }
@@ -86,10 +76,9 @@ impl Body {
             Self::Trough(trough) => points_bounds(trough.base.net()),
             Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
             Self::Side(side) => {
-                let least = match **side {
-                    Side::Horizon(_) => side.bounds().0.z,
-                    _ => f64::NEG_INFINITY,
-                };
+                let least = side
+                    .heights()
+                    .map_or(f64::NEG_INFINITY, |heights| heights[0]);
                 let low = DVec3::NEG_INFINITY.with_z(least);
                 (low, DVec3::INFINITY)
             }

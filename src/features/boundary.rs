@@ -16,10 +16,14 @@
 //! Rulings are straight and all parallel, and the sheets' upper and lower borders are level, so every place of a sheet
 //! follows from q and z, and which side a point is on is as exact as the sheet itself.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
+use super::body::Role;
 use super::clinoform::Clinoform;
 use super::frame::{ClinoformFrame, ClinoformUnit};
+use super::side::{Borders, Ends, Open, Side};
 use crate::nurbs::interpolate::{self, InterpolateError};
 use crate::nurbs::{Curve, CurveError, Function, KnotError, KnotVector, Surface, SurfaceError};
 
@@ -400,6 +404,26 @@ fn sheet(
     }
     let across = KnotVector::uniform(1, 2)?;
     Ok(Surface::new(across, along.clone(), net)?)
+}
+
+impl Open for FaciesBoundary {
+    fn sheets(&self) -> &[Surface] {
+        Self::sheets(self)
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        Self::holds(self, point)
+    }
+}
+
+impl From<FaciesBoundary> for Side {
+    fn from(boundary: FaciesBoundary) -> Self {
+        let ends = Ends::Hanging {
+            frame: boundary.frame().clone(),
+            borders: Borders::Beyond,
+        };
+        Self::new(Role::Open("facies-boundary"), Arc::new(boundary), ends)
+    }
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ pub mod extent;
 pub mod extrusion;
 pub mod frame;
 pub mod horizon;
+pub mod lag;
 pub mod meander;
 mod nudge;
 pub mod pinch_out;

@@ -3,55 +3,108 @@
 //! A body holds what is inside its closed shell; a side holds what is above or basinward of its sheets. Whether it holds
 //! a point is computed from the same splines as its sheets, so both agree to rounding wherever a sheet is in the domain.
 
+use std::fmt;
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-use super::boundary::FaciesBoundary;
-use super::clinoform::Clinoform;
+use super::body::Role;
+use super::frame::ClinoformFrame;
 use super::horizon::{Horizon, HorizonError};
 use crate::nurbs::Surface;
 
 /// What lies on the younger side of open sheets.
+#[derive(Clone, Debug)]
+pub struct Side {
+    role: Role,
+    open: Arc<dyn Open>,
+    ends: Ends,
+}
+
+/// Open sheets with a younger side.
+pub trait Open: fmt::Debug + Send + Sync {
+    /// The sheets. Their borders lie outside of the domain, or above the top or below the base of their unit; or join
+    /// another of them exactly; or, of a sheet that touches a level base, lie on that base.
+    fn sheets(&self) -> &[Surface];
+
+    /// Whether a point lies on the younger side; points on a sheet do not.
+    fn holds(&self, point: DVec3) -> bool;
+}
+
+/// How the sheets of a side end, and go on for whoever needs them closed.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(
-    clippy::large_enum_variant,
-    reason = "a model has one for each sheet, behind an `Arc`"
-)]
-pub enum Side {
-    /// Above a horizon.
-    Horizon(HorizonSheet),
-    /// Above and basinward of a clinoform.
-    Clinoform(Clinoform),
-    /// Basinward of a facies boundary.
-    Boundary(FaciesBoundary),
-    /// Everywhere: no sheet.
-    Everywhere,
+pub enum Ends {
+    /// There is no sheet.
+    NoSheet,
+    /// They are heights over the plan, and go on in all directions.
+    Plan(Arc<HorizonSheet>),
+    /// They hang side by side along the strike of a frame; what they hold lies basinward.
+    Hanging {
+        /// The frame.
+        frame: ClinoformFrame,
+        /// Where their upper and their lower borders are.
+        borders: Borders,
+    },
+}
+
+/// Where the upper and the lower borders of hanging sheets are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Borders {
+    /// At the top and at the base of the unit or beyond: upright walls go on from there. u runs down.
+    Unit {
+        /// Whether they meet the base at no angle.
+        is_tangent: bool,
+    },
+    /// Wherever the sheets were cut off, far enough. u runs up.
+    Beyond,
+}
+
+impl PartialEq for Side {
+    fn eq(&self, other: &Self) -> bool {
+        self.role == other.role && self.sheets() == other.sheets() && self.ends == other.ends
+    }
 }
 
 impl Side {
-    /// The side above a horizon, with a sheet that covers a domain's plan.
-    pub fn horizon(horizon: Horizon, low: DVec3, high: DVec3) -> Result<Self, HorizonError> {
-        Ok(Self::Horizon(HorizonSheet::new(horizon, low, high)?))
+    /// The side of open sheets that do this in a model, and end like that.
+    pub fn new(role: Role, open: Arc<dyn Open>, ends: Ends) -> Self {
+        Self { role, open, ends }
     }
 
-    /// The sheets. Their borders lie outside of the domain, or above the top or below the base of their unit; or join
-    /// another of them exactly; or, of a clinoform that touches a level base, lie on that base.
+    /// The side above a horizon, with a sheet that covers a domain's plan.
+    pub fn horizon(horizon: Horizon, low: DVec3, high: DVec3) -> Result<Self, HorizonError> {
+        let sheet = Arc::new(HorizonSheet::new(horizon, low, high)?);
+        let open = Arc::clone(&sheet) as Arc<dyn Open>;
+        Ok(Self::new(Role::Open("horizon"), open, Ends::Plan(sheet)))
+    }
+
+    /// Everything: there is no sheet.
+    pub fn everywhere() -> Self {
+        Self::new(
+            Role::Open("everywhere"),
+            Arc::new(Everywhere),
+            Ends::NoSheet,
+        )
+    }
+
+    /// What its sheets are.
+    pub fn role(&self) -> Role {
+        self.role
+    }
+
+    /// How its sheets end.
+    pub fn ends(&self) -> &Ends {
+        &self.ends
+    }
+
+    /// The sheets: see [`Open::sheets`].
     pub fn sheets(&self) -> &[Surface] {
-        match self {
-            Self::Horizon(horizon) => std::slice::from_ref(&horizon.sheet),
-            Self::Clinoform(clinoform) => std::slice::from_ref(clinoform.surface()),
-            Self::Boundary(boundary) => boundary.sheets(),
-            Self::Everywhere => &[],
-        }
+        self.open.sheets()
     }
 
     /// Whether a point lies on the younger side; points on a sheet do not.
     pub fn holds(&self, point: DVec3) -> bool {
-        match self {
-            Self::Horizon(horizon) => horizon.holds(point),
-            Self::Clinoform(clinoform) => clinoform.holds(point),
-            Self::Boundary(boundary) => boundary.holds(point),
-            Self::Everywhere => true,
-        }
+        self.open.holds(point)
     }
 
     /// The corners of a box that holds the sheets: that of their control points. Empty (infinite, the wrong way round) if
@@ -60,37 +113,66 @@ impl Side {
         points_bounds(self.sheets().iter().flat_map(Surface::net))
     }
 
-    /// Whether this and another one are the same: two horizons that run within a tolerance of each other (m), with sheets of
+    /// Whether this and another one are the same: heights that run within a tolerance of each other (m), with sheets of
     /// one shape; or exactly alike.
     pub fn is_at(&self, other: &Self, tolerance: f64) -> bool {
-        match (self, other) {
-            (Self::Horizon(one), Self::Horizon(other)) => {
-                let mut heights = one.heights.iter().zip(other.heights);
-                let (one, other) = (&one.sheet, &other.sheet);
-                let mut pairs = one.net().iter().zip(other.net());
-                heights.all(|(a, b)| (a - b).abs() <= tolerance)
-                    && one.knots_u() == other.knots_u()
-                    && one.knots_v() == other.knots_v()
-                    && pairs.all(|(a, b)| (*a - *b).abs().max_element() <= tolerance)
-            }
-            _ => self == other,
+        let (Some(one), Some(other)) = (self.plan(), other.plan()) else {
+            return self == other;
+        };
+        let mut heights = one.heights.iter().zip(other.heights);
+        let (one, other) = (&one.sheet, &other.sheet);
+        let mut pairs = one.net().iter().zip(other.net());
+        heights.all(|(a, b)| (a - b).abs() <= tolerance)
+            && one.knots_u() == other.knots_u()
+            && one.knots_v() == other.knots_v()
+            && pairs.all(|(a, b)| (*a - *b).abs().max_element() <= tolerance)
+    }
+
+    /// Its sheet, if that is one of heights over the plan.
+    pub fn plan(&self) -> Option<&HorizonSheet> {
+        match &self.ends {
+            Ends::Plan(sheet) => Some(sheet),
+            Ends::NoSheet | Ends::Hanging { .. } => None,
         }
     }
 
-    /// Least and greatest elevation of a horizon within the plan of its sheet, or beyond them (m); none of what is no horizon.
+    /// Least and greatest elevation of heights over the plan, within the plan of their sheet, or beyond them (m).
     pub fn heights(&self) -> Option<[f64; 2]> {
-        match self {
-            Self::Horizon(horizon) => Some(horizon.heights),
-            _ => None,
-        }
+        self.plan().map(|sheet| sheet.heights)
     }
 
-    /// The elevation of a level horizon (m).
+    /// The elevation of heights that are level (m).
     pub fn level(&self) -> Option<f64> {
-        match self {
-            Self::Horizon(horizon) => horizon.horizon.level(),
-            _ => None,
-        }
+        self.plan()?.horizon.level()
+    }
+
+    /// Whether it holds everything.
+    pub fn is_everywhere(&self) -> bool {
+        self.ends == Ends::NoSheet
+    }
+}
+
+/// No sheet at all.
+#[derive(Debug)]
+struct Everywhere;
+
+impl Open for Everywhere {
+    fn sheets(&self) -> &[Surface] {
+        &[]
+    }
+
+    fn holds(&self, _: DVec3) -> bool {
+        true
+    }
+}
+
+impl Open for HorizonSheet {
+    fn sheets(&self) -> &[Surface] {
+        std::slice::from_ref(&self.sheet)
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        Self::holds(self, point)
     }
 }
 
@@ -205,9 +287,9 @@ mod tests {
         assert!(side.sheets()[0].net().iter().all(|p| p.z == -21.3));
         assert!(!side.holds(DVec3::new(1.0, 1.0, -21.3)));
         assert!(side.holds(DVec3::new(1.0, 1.0, -21.299_999)));
-        assert!(Side::Everywhere.sheets().is_empty());
-        assert!(Side::Everywhere.holds(LOW));
-        let (low, high) = Side::Everywhere.bounds();
+        assert!(Side::everywhere().sheets().is_empty());
+        assert!(Side::everywhere().holds(LOW));
+        let (low, high) = Side::everywhere().bounds();
         assert!(low.cmpgt(high).all());
     }
 }

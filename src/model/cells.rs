@@ -7,7 +7,6 @@ use glam::DVec3;
 
 use super::interior::Interior;
 use super::rules::{BACKGROUND, Rules};
-use crate::features::side::Side;
 
 /// Cells along an axis at most.
 const MOST_ALONG: f64 = 2048.0;
@@ -51,10 +50,10 @@ impl Reach {
             Interior::Shell(_) | Interior::Ellipsoid(_) => interior.bounds(),
             Interior::Side(side) => {
                 // Beyond its heights a horizon holds all or nothing; of most other sides nothing is known.
-                let [lowest, above] = match (side.heights(), side.as_ref()) {
-                    (Some(heights), _) => heights,
-                    (None, Side::Everywhere) => [f64::NEG_INFINITY; 2],
-                    (None, _) => [f64::NEG_INFINITY, f64::INFINITY],
+                let [lowest, above] = match side.heights() {
+                    Some(heights) => heights,
+                    None if side.is_everywhere() => [f64::NEG_INFINITY; 2],
+                    None => [f64::NEG_INFINITY, f64::INFINITY],
                 };
                 return Self {
                     low: DVec3::NEG_INFINITY.with_z(lowest - margin),

@@ -21,20 +21,20 @@ pub(crate) const DEEPEST_LEVEL: u32 = 1000;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FeatureFile {
-    /// Its name: letters, digits, `-` and `_`; unique in the model.
+    /// Its name: letters, digits, `-` and `_`; unique in the model; not `background` or `domain`.
     #[schemars(regex(pattern = "^[A-Za-z0-9_-]+$"))]
     pub(crate) id: Field<String>,
     /// What it is.
     pub(crate) kind: Field<String>,
-    /// Whether it takes part; true if left out.
+    /// Whether it takes part; true if left out. False leaves it out with its children, and changes no other feature's draws.
     pub(crate) enabled: Option<Field<bool>>,
-    /// How many are made (of each instance of the parent); 1 if left out.
+    /// How many are made, in each instance of the parent: `channel-1` (the oldest), `channel-2`, …; 1 if left out. All together at most 100 000.
     #[schemars(range(min = 1, max = 10000))]
     pub(crate) count: Option<Field<u64>>,
     /// Hierarchical level, 1 = largest; if left out, one more than the parent's, or 1.
     #[schemars(range(min = 1, max = 1000))]
     pub(crate) level: Option<Field<u64>>,
-    /// Id of the feature that it lies in.
+    /// Id of the feature that it lies in; it is made directly after its parent, so a younger feature also cuts it.
     pub(crate) parent: Option<Field<String>>,
     /// The facies of what it bounds.
     pub(crate) facies: Field<String>,
@@ -44,7 +44,7 @@ pub(crate) struct FeatureFile {
     /// What may remove it: "younger" (the default), "everything", "nothing" or [], or a list as in `removes`.
     #[schemars(with = "Option<Selector>")]
     pub(crate) removed_by: Option<Field<Any>>,
-    /// If true, it removes nothing but its parent and the background.
+    /// If true, it removes nothing but its parent and the background, so it takes only what no other feature holds; false if left out. Not together with `removes`.
     pub(crate) preserve: Option<Field<bool>>,
 }
 

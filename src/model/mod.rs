@@ -54,6 +54,7 @@ pub use kinds::channel::{ChannelSpec, SectionOrigin};
 pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
+pub use kinds::lag::LagSpec;
 pub use kinds::made::Bound;
 pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};

@@ -19,6 +19,15 @@ pub struct Nature {
     pub is_base: bool,
     /// What to set so that it lies elsewhere, in words that go before "within the parent".
     pub placed_by: &'static str,
+    /// What to change so that `{name}` runs along nothing any more, by no less than `{by}`.
+    pub apart: &'static str,
+}
+
+impl Nature {
+    /// Whether one of the kind makes many volumes.
+    pub fn is_many(&self) -> bool {
+        self.volumes != Volumes::One
+    }
 }
 
 /// How many of a kind a feature makes.

@@ -17,6 +17,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::kinds;
+use super::nature::Nature;
 use super::realisation::{Instance, Realisation};
 use super::rules::Rules;
 use crate::features::body::{Body, Trough, TroughError};
@@ -32,6 +34,8 @@ pub struct AssemblyPlan {
     pub rules: Rules,
     /// The volumes' names, for messages.
     pub names: Vec<String>,
+    /// What they are; none of the background.
+    pub natures: Vec<Option<Nature>>,
     /// The shells, each once.
     pub shells: Vec<PlannedShell>,
     /// Elevations at which bodies end under a lid inside the domain.
@@ -120,6 +124,11 @@ impl AssemblyPlan {
                 .iter()
                 .map(|volume| volume.name.clone())
                 .collect(),
+            natures: realisation
+                .volumes
+                .iter()
+                .map(|volume| kinds::named(&volume.kind).map(|kind| kind.nature))
+                .collect(),
             shells: Vec::new(),
             lids: Vec::new(),
             bodies: Vec::new(),
@@ -204,7 +213,7 @@ impl AssemblyPlan {
                 self.note(format!(
                     "{name} lies on the domain's base: all of the domain is above it"
                 ));
-                body = Cow::Owned(Body::Side(Side::Everywhere.into()));
+                body = Cow::Owned(Body::Side(Arc::new(Side::everywhere())));
             }
         }
         let heights = match &*body {
@@ -218,7 +227,7 @@ impl AssemblyPlan {
             ));
             return Some(Reaching {
                 volume: instance.volume,
-                body: Cow::Owned(Body::Side(Side::Everywhere.into())),
+                body: Cow::Owned(Body::Side(Arc::new(Side::everywhere()))),
             });
         }
         let (low, high) = body.bounds();

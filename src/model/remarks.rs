@@ -10,7 +10,6 @@ use rayon::prelude::*;
 
 use super::interior::Interior;
 use super::kinds;
-use super::nature::Volumes;
 use super::owner::Owners;
 use super::realisation::{Instance, Realisation};
 use super::rules::VolumeRules;
@@ -182,7 +181,7 @@ pub fn say_empty(
     let volumes = &realisation.volumes;
     let is_set = |volume: &VolumeRules| {
         let kind = kinds::named(&volume.kind);
-        kind.is_some_and(|kind| kind.nature.volumes != Volumes::One)
+        kind.is_some_and(|kind| kind.nature.is_many())
     };
     let parts = volumes.iter().filter(|part| is_set(part));
     let divided: BTreeSet<usize> = parts

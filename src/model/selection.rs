@@ -1,7 +1,6 @@
 //! Selections: which features and levels take part.
 
 use super::kinds::made::VolumeName;
-use super::nature::Volumes;
 use super::spec::{Feature, Model};
 use super::suggest;
 
@@ -93,7 +92,7 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     if feature.id == name {
         return Some(Named::Volume);
     }
-    if let Volumes::Many { .. } = feature.kind.nature().volumes {
+    if feature.kind.nature().is_many() {
         let start = format!("{}{}-", path(model, feature), feature.id);
         let named = feature.kind.volume_name(name.strip_prefix(&start)?)?;
         return Some(match named {
@@ -133,7 +132,7 @@ fn path(model: &Model, feature: &Feature) -> String {
 
 /// A feature's own name in that of its first volume.
 fn first_volume(feature: &Feature) -> String {
-    let is_one = feature.kind.nature().volumes == Volumes::One && feature.count == 1;
+    let is_one = !feature.kind.nature().is_many() && feature.count == 1;
     if is_one {
         feature.id.clone()
     } else {

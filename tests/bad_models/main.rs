@@ -12,6 +12,7 @@
 mod channels;
 mod ellipsoids;
 mod files;
+mod lags;
 mod overrides;
 mod shorefaces;
 

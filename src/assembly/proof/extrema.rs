@@ -106,10 +106,7 @@ pub(super) fn columns(plan: &AssemblyPlan, surfaces: &[Surface], most: usize) ->
     });
     let heights: Vec<&HorizonSheet> = sides
         .chain(plan.bounds().map(|(_, side)| side.as_ref()))
-        .filter_map(|side| match side {
-            Side::Horizon(sheet) => Some(sheet),
-            _ => None,
-        })
+        .filter_map(Side::plan)
         .collect();
     let mut found = between_heights(plan, &heights);
     found.extend(of_surfaces(plan, surfaces, &heights));

@@ -21,11 +21,15 @@
 mod design;
 mod net;
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 pub use self::design::{ClinoformDesign, ClinoformError};
 use self::net::{Fit, Net, between};
+use super::body::Role;
 use super::frame::{ClinoformFrame, ClinoformUnit};
+use super::side::{Borders, Ends, Open, Side};
 use crate::nurbs::{Function, Surface};
 
 /// A sheet of a clinoform set.
@@ -136,17 +140,6 @@ impl Clinoform {
             .then(|| self.surface.point(u, v).z)
     }
 
-    /// Points evenly along strike where the sheet leaves the top of its unit, and where it reaches the base.
-    pub fn ends(&self, count: u32) -> [Vec<DVec3>; 2] {
-        let along = |u: f64| {
-            (0..count).map(move |k| {
-                let v = f64::from(k) / f64::from(count - 1);
-                self.surface.point(u, v)
-            })
-        };
-        [along(0.0).collect(), along(1.0).collect()]
-    }
-
     /// Whether the sheet meets its base at no angle, as without a toe.
     pub fn is_tangent_to_base(&self) -> bool {
         let height = |u: f64| self.surface.point(u, 0.5).z;
@@ -164,6 +157,28 @@ impl Clinoform {
         let v = self.v(q);
         let (top, toe) = (self.top.value(v), self.toe.value(v));
         ((d - top) / (toe - top), v)
+    }
+}
+
+impl Open for Clinoform {
+    fn sheets(&self) -> &[Surface] {
+        std::slice::from_ref(self.surface())
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        Self::holds(self, point)
+    }
+}
+
+impl From<Clinoform> for Side {
+    fn from(clinoform: Clinoform) -> Self {
+        let ends = Ends::Hanging {
+            frame: clinoform.frame().clone(),
+            borders: Borders::Unit {
+                is_tangent: clinoform.is_tangent_to_base(),
+            },
+        };
+        Self::new(Role::Open("clinoform"), Arc::new(clinoform), ends)
     }
 }
 

@@ -68,19 +68,19 @@ pub enum SectionOrigin {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ChannelFile {
-    /// Width of the top in metres.
+    /// Width of the top in metres, above 0.
     #[schemars(with = "Profile")]
     pub(crate) width: Field<Any>,
-    /// Depth of the deepest point below the top, in metres.
+    /// Depth of the deepest point (the thalweg) below the top, in metres, above 0.
     #[schemars(with = "Profile")]
     pub(crate) depth: Field<Any>,
     /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; 0 if left out.
     #[schemars(with = "Option<Profile>")]
     pub(crate) asymmetry: Option<Field<Any>>,
-    /// Angle of the left bank (looking along the trajectory) below the horizontal at the rim, in degrees.
+    /// Angle of the left bank (looking along the trajectory) below the horizontal at the rim, in degrees, between 0 and 180; chosen by the section if left out.
     #[schemars(with = "Option<Profile>")]
     pub(crate) left_angle_deg: Option<Field<Any>>,
-    /// Angle of the right bank below the horizontal at the rim, in degrees.
+    /// Angle of the right bank below the horizontal at the rim, in degrees, between 0 and 180; chosen by the section if left out.
     #[schemars(with = "Option<Profile>")]
     pub(crate) right_angle_deg: Option<Field<Any>>,
     /// Elevation of the top in metres; if left out, uniform between the base of the domain + depth and its top.
@@ -116,6 +116,7 @@ impl Kind for ChannelSpec {
         is_base: false,
         placed_by: "what a channel leaves out is drawn over the whole domain, so set its `top` and a trajectory (`center`, or \
                     `from` and `to`)",
+        apart: "change `top`, `depth` or `width` of {name} by {by} or more, or its trajectory",
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {

@@ -3,6 +3,8 @@
 mod belts;
 mod draw;
 
+use std::sync::Arc;
+
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
@@ -10,7 +12,7 @@ use super::Kind;
 use super::keys::Keys;
 use super::made::{Bound, Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
-use crate::features::side::Side;
+use crate::features::side::{Borders, Ends, Side};
 use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
@@ -22,7 +24,7 @@ use crate::model::values::quantity::Quantity;
 use crate::model::values::tuple::Tuple;
 pub use belts::Belt;
 use belts::BeltFile;
-use draw::{DrawnSet, DrawnSide};
+use draw::{Drawn, DrawnSet};
 
 /// The most clinoforms of one set: a spacing that is far too small is found out before the memory is full.
 const MOST_SHEETS: u64 = 500;
@@ -75,7 +77,7 @@ pub enum Interfingering {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ClinoformsFile {
-    /// Id of the horizon that bounds the unit above, or "domain"; if left out, the next horizon, or the domain's top.
+    /// Id of the horizon that bounds the unit above, later in the list than the parent, or "domain"; if left out, the next horizon, or the domain's top. If it takes no part, the unit reaches up to the next horizon that does, or to the domain's top.
     pub(crate) top: Option<Field<String>>,
     /// Direction of progradation in degrees, clockwise from north.
     #[schemars(with = "Quantity")]
@@ -83,25 +85,25 @@ pub(crate) struct ClinoformsFile {
     /// Semi-extents of the shoreline's ellipse, [along dip, along strike], in metres; [3000, 6000] if left out.
     #[schemars(with = "Option<[Quantity; 2]>")]
     pub(crate) shoreline: Option<Field<Any>>,
-    /// Plan distance from a clinoform's shoreline to its toe, in metres.
+    /// Plan distance from a clinoform's shoreline to its toe, in metres, above 0.
     #[schemars(with = "Quantity")]
     pub(crate) length: Field<Any>,
-    /// Distance from a clinoform to the next along the progradation, in metres.
+    /// Distance from a clinoform to the next along the progradation, in metres, above 0.
     #[schemars(with = "Quantity")]
     pub(crate) spacing: Field<Any>,
-    /// Distance from the domain's landward corner to the first clinoform's shoreline, in metres.
+    /// Distance from the domain's landward corner to the first clinoform's shoreline, in metres, above 0.
     #[schemars(with = "Quantity")]
     pub(crate) first: Field<Any>,
-    /// Exponent of the dip profile; 2 if left out.
+    /// Exponent of the dip profile, 1 (straight) or more (concave upwards); 2 if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) exponent: Option<Field<Any>>,
-    /// How straight the profile meets its base, from 0 (tangent) to 1 (straight); if left out, 0 between level bounds and 0.3 otherwise.
+    /// How straight the profile meets its base, from 0 (tangent) to 1 (straight); if left out, 0 between level bounds with an exponent of at most 2, and 0.3 otherwise; 0 is possible only there.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) toe: Option<Field<Any>>,
     /// How many clinoforms; as many as have their shoreline in the domain if left out.
     #[schemars(range(min = 1, max = 500))]
     pub(crate) sheets: Option<Field<u64>>,
-    /// Shape of the boundaries between belts: "smooth" (the default) or "zigzag".
+    /// Shape of the boundaries between belts along strike: "smooth" (the default) or "zigzag".
     #[schemars(schema_with = "interfingering")]
     #[serde(default)]
     pub(crate) interfingering: Option<Field<String>>,
@@ -147,6 +149,7 @@ impl Kind for ClinoformsSpec {
         },
         is_base: false,
         placed_by: "set its `first`",
+        apart: "change `first`, `spacing`, `length` or `toe` of the clinoforms a little, or the surface that they run along",
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
@@ -210,10 +213,11 @@ impl Kind for ClinoformsSpec {
         let mut parts = Vec::new();
         let mut firsts = Vec::with_capacity(sheets.len() + 1);
         // Without belts, what lies below the first sheet stays the unit's.
-        let oldest = (!self.belts.is_empty()).then(|| DrawnSide {
-            side: Side::Everywhere.into(),
+        let oldest = (!self.belts.is_empty()).then(|| Drawn {
+            sheet: Side::everywhere(),
             drawn: Vec::new(),
         });
+        let sheets = sheets.into_iter().map(Drawn::side);
         let first_number = usize::from(oldest.is_none());
         for (at, side) in oldest.into_iter().chain(sheets).enumerate() {
             let from = parts
@@ -226,7 +230,8 @@ impl Kind for ClinoformsSpec {
         for (clinothem, (first, boundaries)) in firsts.into_iter().zip(boundaries).enumerate() {
             let mut from = first;
             for (at, boundary) in boundaries.into_iter().enumerate() {
-                parts.push(self.part(clinothem, at + 1, TakesFrom::Part(from), boundary));
+                let from_landward = TakesFrom::Part(from);
+                parts.push(self.part(clinothem, at + 1, from_landward, boundary.side()));
                 from = parts.len() - 1;
             }
         }
@@ -270,7 +275,10 @@ impl Kind for ClinoformsSpec {
     fn meshing(made: &[Outcome<'_>]) -> Option<String> {
         let is_tangent = |body: &Body| match body {
             Body::Side(side) => {
-                matches!(&**side, Side::Clinoform(sheet) if sheet.is_tangent_to_base())
+                let Ends::Hanging { borders, .. } = side.ends() else {
+                    return false;
+                };
+                *borders == Borders::Unit { is_tangent: true }
             }
             _ => false,
         };
@@ -292,14 +300,14 @@ impl Kind for ClinoformsSpec {
 
 impl ClinoformsSpec {
     /// A clinothem, or a belt of one.
-    fn part(&self, clinothem: usize, belt: usize, from: TakesFrom, side: DrawnSide) -> Part {
+    fn part(&self, clinothem: usize, belt: usize, from: TakesFrom, side: Drawn<Side>) -> Part {
         let belt = self.belts.get(belt);
         Part {
             name: match belt {
                 None => format!("-{clinothem}"),
                 Some(belt) => format!("-{clinothem}/{}", belt.name),
             },
-            body: Body::Side(side.side),
+            body: Body::Side(Arc::new(side.sheet)),
             from,
             facies: belt.map(|belt| belt.facies),
             drawn: side.drawn,

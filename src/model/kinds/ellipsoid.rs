@@ -37,10 +37,10 @@ pub struct EllipsoidSpec {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct EllipsoidFile {
-    /// Semi-axes [a, b, c] in metres: a along azimuth and plunge, b level and across it, c at right angles to both (vertical if the plunge is 0).
+    /// Semi-axes [a, b, c] in metres, above 0 (half of length, width and height): a along azimuth and plunge, b level and across it, c at right angles to both (vertical if the plunge is 0).
     #[schemars(with = "[Quantity; 3]")]
     pub(crate) semi_axes: Field<Any>,
-    /// Centre, [x, y, z]; if left out, uniform over the domain, or over what the parent has of it.
+    /// Centre, [x, y, z]; if left out, uniform over the domain, or, for a child, over what its parent has of it. A centre outside the parent is drawn again and counted.
     #[schemars(with = "Option<[Quantity; 3]>")]
     pub(crate) center: Option<Field<Any>>,
     /// Direction of the first axis in degrees, clockwise from north; 0 if left out.
@@ -61,6 +61,7 @@ impl Kind for EllipsoidSpec {
         volumes: Volumes::One,
         is_base: false,
         placed_by: "set its `center`",
+        apart: "move the `center` of {name} by {by} or more, or change its `semi_axes`",
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {

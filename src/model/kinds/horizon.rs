@@ -33,7 +33,7 @@ pub(crate) struct HorizonFile {
     /// Where it runs.
     #[schemars(schema_with = "horizon_surface")]
     pub(crate) surface: Field<Any>,
-    /// "erosive" (the default): its unit takes everything above the surface; "onlapping": only what the unit below and its children hold.
+    /// "erosive" (the default): its unit takes everything above the surface; "onlapping": only what the open unit (that of the horizon before it in the list, or the background) and its children hold; older units and bodies without a parent keep theirs.
     #[schemars(schema_with = "relation")]
     #[serde(default)]
     pub(crate) relation: Option<Field<String>>,
@@ -59,6 +59,7 @@ impl Kind for HorizonSpec {
         volumes: Volumes::One,
         is_base: true,
         placed_by: "set its `surface`",
+        apart: "raise or lower {name} by {by} or more there",
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {

@@ -9,6 +9,7 @@ pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
+pub(crate) mod lag;
 pub(crate) mod made;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -22,6 +23,7 @@ use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
+use lag::LagSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 
 /// A kind of feature: how its table is read, and what one instance of it is.
@@ -173,6 +175,8 @@ kinds! {
     Horizon(HorizonSpec),
     /// Clinoforms that divide a horizon's unit.
     Clinoforms(ClinoformsSpec),
+    /// The lowest part of a channel's fill.
+    Lag(LagSpec),
 }
 
 impl FeatureKind {

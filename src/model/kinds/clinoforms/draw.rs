@@ -1,7 +1,5 @@
 //! A clinoform set drawn: its sheets, and the boundaries of its facies belts.
 
-use std::sync::Arc;
-
 use super::{Belt, ClinoformsSpec, Interfingering, MOST_SHEETS, TOE};
 use crate::features::boundary::{BoundaryDesign, FaciesBoundary, Wander};
 use crate::features::clinoform::{Clinoform, ClinoformDesign};
@@ -20,21 +18,31 @@ const NODES: [f64; 2] = [0.0767, 0.1534];
 /// How often the boundaries of belts turn at most.
 const MOST_TURNS: f64 = 1000.0;
 
-/// A side with what was drawn for it.
+/// A sheet with what was drawn for it.
 #[derive(Clone, Debug)]
-pub(super) struct DrawnSide {
-    pub(super) side: Arc<Side>,
+pub(super) struct Drawn<T> {
+    pub(super) sheet: T,
     pub(super) drawn: Vec<(String, f64)>,
+}
+
+impl<T: Into<Side>> Drawn<T> {
+    /// What lies on its younger side.
+    pub(super) fn side(self) -> Drawn<Side> {
+        Drawn {
+            sheet: self.sheet.into(),
+            drawn: self.drawn,
+        }
+    }
 }
 
 /// A clinoform set.
 #[derive(Clone, Debug)]
 pub(super) struct DrawnSet {
     /// The sheets, oldest first.
-    pub(super) sheets: Vec<DrawnSide>,
+    pub(super) sheets: Vec<Drawn<Clinoform>>,
     /// By clinothem, from the one below the first sheet to the one above the last: the boundaries between its belts,
     /// landward ones first.
-    pub(super) boundaries: Vec<Vec<DrawnSide>>,
+    pub(super) boundaries: Vec<Vec<Drawn<FaciesBoundary>>>,
 }
 
 impl ClinoformsSpec {
@@ -123,7 +131,7 @@ struct Set<'a> {
 impl Set<'_> {
     fn draw(&self, draws: &mut Draws<'_>) -> Result<DrawnSet, Reason> {
         let mut origin = self.frame.first_origin(self.shoreline);
-        let mut sheets: Vec<(Clinoform, Vec<(String, f64)>)> = Vec::new();
+        let mut sheets = Vec::new();
         let mut boundaries = Vec::new();
         for number in 1.. {
             let before = draws.drawn.len();
@@ -164,16 +172,9 @@ impl Set<'_> {
                 );
                 return Err(("too many sheets", message));
             }
-            sheets.push((sheet, drawn));
+            sheets.push(Drawn { sheet, drawn });
         }
-        let side = |(sheet, drawn)| DrawnSide {
-            side: Arc::new(Side::Clinoform(sheet)),
-            drawn,
-        };
-        Ok(DrawnSet {
-            sheets: sheets.into_iter().map(side).collect(),
-            boundaries,
-        })
+        Ok(DrawnSet { sheets, boundaries })
     }
 
     /// The boundaries between the belts of a clinothem, given the sheet that bounds it above.
@@ -182,7 +183,7 @@ impl Set<'_> {
         clinothem: usize,
         younger: &Clinoform,
         draws: &mut Draws<'_>,
-    ) -> Result<Vec<DrawnSide>, Reason> {
+    ) -> Result<Vec<Drawn<FaciesBoundary>>, Reason> {
         let mut distance = 0.0;
         let mut made = Vec::new();
         for Belt {
@@ -218,8 +219,8 @@ impl Set<'_> {
                 let message = format!("belt {name} of clinothem {clinothem}: {error}");
                 ("no facies boundary", message)
             })?;
-            made.push(DrawnSide {
-                side: Arc::new(Side::Boundary(boundary)),
+            made.push(Drawn {
+                sheet: boundary,
                 drawn: draws.drawn.split_off(before),
             });
         }

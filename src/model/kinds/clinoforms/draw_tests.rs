@@ -6,9 +6,9 @@
 )]
 
 use super::*;
-use crate::model::quantity::Quantity;
-use crate::model::spec::{FeatureKind, Model};
-use crate::model::{Format, Source};
+use crate::model::draws::{Key, Rejected, attempt};
+use crate::model::values::quantity::Quantity;
+use crate::model::{FeatureKind, Format, Model, Source};
 
 const KEY: Key<'_> = Key {
     seed: 3,
@@ -56,12 +56,13 @@ fn spec(model: &Model) -> &ClinoformsSpec {
 
 fn draw(model: &Model, spec: &ClinoformsSpec) -> Result<DrawnSet, Rejected> {
     let [base, top] = model.domain.z.map(|z| Horizon::flat(z).unwrap());
-    clinoforms(spec, &model.domain, [&base, &top], 0.0, KEY)
+    let make = |draws: &mut Draws<'_>| spec.draw(&model.domain, [&base, &top], 0.0, draws);
+    attempt(KEY, make).map(|made| made.0)
 }
 
 /// The nodes of many boundaries, and Q.
 fn nodes(model: &Model) -> (Vec<Vec<[f64; 2]>>, f64) {
-    let (low, high) = corners(&model.domain);
+    let (low, high) = model.domain.corners();
     let [base, top] = model.domain.z.map(|z| Horizon::flat(z).unwrap());
     let frame = ClinoformFrame::new(low, high, 90.0_f64.to_radians()).unwrap();
     let mut draws = Draws {
@@ -149,11 +150,7 @@ fn every_boundary_wanders_on_its_own() {
     let set = draw(&model, spec(&model)).unwrap();
     assert_eq!((set.sheets.len(), set.boundaries.len()), (2, 3));
     let off = |at: usize, q: f64| {
-        let (Side::Clinoform(sheet), Side::Boundary(boundary)) =
-            (&*set.sheets[at].side, &*set.boundaries[at][0].side)
-        else {
-            panic!("a sheet and a boundary")
-        };
+        let (sheet, boundary) = (&set.sheets[at].sheet, &set.boundaries[at][0].sheet);
         // Ruled from the younger sheet along 40 m of dip in 20 m of height; 100 m from the shoreline u is ¼.
         let z = -20.0 + 20.0 * 0.75 * 0.75;
         boundary.d(q, z) - sheet.d_top(q)
