@@ -17,7 +17,7 @@
 use glam::DVec3;
 
 use super::facet::Facet;
-use super::hermite::{self, Branch, End};
+use super::hermite::{self, Branch, End, Node};
 
 /// How far beyond a patch its border still is, as a fraction of its parameters: curves may run along borders.
 pub(super) const BORDER: f64 = 1e-9;
@@ -126,8 +126,7 @@ impl Chords {
                     }
                     // On the border of its sheet, or of what is followed. What is behind a contact is not known.
                     End::AtRoot(_) | End::AtBorder(..) | End::Outside => {
-                        let end = branch.end(usize::from(forward)).parameters();
-                        return self.ends_at(&end, lengths);
+                        return self.ends_at(branch.end(usize::from(forward)), forward, lengths);
                     }
                     End::Tangent => return false,
                 }
@@ -188,12 +187,16 @@ impl Chords {
         (0..4).all(|k| !which[k] || holds(k))
     }
 
-    /// Whether a curve's end on a border of its sheet has nothing behind it.
-    fn ends_at(&self, q: &[f64; 4], lengths: [f64; 4]) -> bool {
+    /// Whether a curve's end on a border of its sheet has nothing behind it: a parameter that grows along all chords ends there,
+    /// too, the way that the curve goes.
+    fn ends_at(&self, end: &Node, forward: bool, lengths: [f64; 4]) -> bool {
+        let q = end.parameters();
         (0..4).any(|k| {
             let [low, high] = self.ranges[k];
             let near = (3.0 * self.slack * (high - low)).max(END * lengths[k]);
-            self.is_monotone[k] && (q[k] - low <= near || high - q[k] <= near)
+            let grows = (end.first[3 + k] > 0.0) == forward;
+            let left = if grows { high - q[k] } else { q[k] - low };
+            self.is_monotone[k] && left <= near
         })
     }
 }

@@ -44,8 +44,6 @@ impl Doubt {
 pub struct Faults {
     /// Places where curve and sheet, or two sheets, come too near to parallel to decide.
     pub undecided: usize,
-    /// Smallest pairs of patches without a certificate that no curve is missed there.
-    pub uncertain: usize,
     /// Branches that stop where their sheets touch.
     pub tangents: usize,
     /// Roots of edges that no branch of an adjacent sheet ends at.
@@ -74,10 +72,9 @@ pub struct Faults {
 
 impl Faults {
     /// Every count with its name.
-    pub fn counts(&self) -> [(&'static str, usize); 14] {
+    pub fn counts(&self) -> [(&'static str, usize); 13] {
         [
             ("undecided contacts", self.undecided),
-            ("places where a curve may be missed", self.uncertain),
             ("tangential contacts", self.tangents),
             ("roots without a branch", self.unused_roots),
             ("branches without a root", self.lost_ends),
@@ -100,7 +97,6 @@ impl Faults {
 
     pub(super) fn add(&mut self, other: &Self) {
         self.undecided += other.undecided;
-        self.uncertain += other.uncertain;
         self.tangents += other.tangents;
         self.unused_roots += other.unused_roots;
         self.lost_ends += other.lost_ends;

@@ -339,7 +339,7 @@ fn follow(
         branches.push(branch);
     }
     let found = |node: Node| march.through(node);
-    let doubts;
+    let mut doubts = Vec::new();
     let mut certificates = Certificates::default();
     let mut branches = if let Some(heights) = pair.heights {
         let mut search = Contours::new(pair, heights, [clip, far], branches, found, &matters);
@@ -353,8 +353,6 @@ fn follow(
         search.twins = twins;
         search.run();
         faults.undecided += search.undecided + usize::from(search.gave_up());
-        faults.uncertain += search.uncertain;
-        doubts = search.doubts;
         certificates = Certificates {
             certain: search.certain,
             uncertain: search.uncertain,

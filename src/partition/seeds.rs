@@ -2,13 +2,13 @@
 //!
 //! Where a parameter grows along all chords of two patches they cross in simple arcs, one behind the other; so one place on an arc is
 //! enough where it is alone ([`Chords`]). Else the halves are asked: an attempt to land on a curve that fails says nothing, the
-//! arc may be far from where it is looked for. What is neither apart nor known when it is small is counted.
+//! arc may be far from where it is looked for. What is neither apart nor known when it is small is counted: a curve that is missed
+//! lies in such patches alone.
 
 use glam::DVec3;
 
 use super::alone::{BORDER, Chords, Frame};
 use super::bounds::Bounds;
-use super::check::Doubt;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
 use super::linear::{self, Guess};
@@ -18,8 +18,6 @@ use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 1e-5;
-/// And to this one where only a certificate is missing.
-const TINY: f64 = 1e-8;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -32,8 +30,6 @@ const FLAT: f64 = 0.35;
 const BESIDE: f64 = 0.02;
 /// An attempt to land is given up when it leaves the patches by this fraction of their size.
 const REACH: f64 = 0.5;
-/// Doubtful places nearer than this fraction of the domain's size are one.
-const BESIDE_DOUBTS: f64 = 1e-3;
 /// While patches are halved their sizes are kept within this factor.
 const RATIO: f64 = 4.0;
 
@@ -58,8 +54,6 @@ pub(super) struct Search<'a, F> {
     pub(super) certain: usize,
     /// Smallest pairs of patches where a curve may be missed.
     pub(super) uncertain: usize,
-    /// And where that is.
-    pub(super) doubts: Vec<Doubt>,
     halvings: usize,
 }
 
@@ -105,7 +99,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             undecided: 0,
             certain: 0,
             uncertain: 0,
-            doubts: Vec::new(),
             halvings: 0,
         }
     }
@@ -152,32 +145,27 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH {
+        if self.halvings > MOST || self.undecided >= ENOUGH {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
         let around = self.around;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
-        let tiny = TINY * self.pair.tolerances.scale;
-        let is_tiny = size_a < tiny && size_b < tiny;
         let is_flat = a.lean() < FLAT && b.lean() < FLAT;
-        let mut is_least = is_small;
         // A curve that passes beside the smallest patches passes through what is around them.
         let beside = if is_small { BESIDE } else { BORDER };
         if is_flat {
             match self.flat(a, b, beside) {
                 Verdict::Apart | Verdict::Known => return,
-                Verdict::Doubtful if is_tiny => {
+                Verdict::Doubtful if is_small => {
                     self.doubt(a);
                     return;
                 }
-                // Only where they bend much are small patches not flat enough.
-                Verdict::Doubtful => is_least = false,
-                Verdict::Open => {}
+                Verdict::Doubtful | Verdict::Open => {}
             }
         }
-        if is_least {
+        if is_small {
             let guess = linear::guess(&a.patch, &b.patch, BESIDE);
             let place = self.locate(a, b, &guess);
             let is_near = place.and_then(|place| self.follow(place)).is_some();
@@ -187,12 +175,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                 self.undecided += usize::from((self.matters)(point));
                 return;
             }
-            if !is_flat || is_tiny {
-                self.doubt(a);
-                return;
-            }
+            self.doubt(a);
+            return;
         }
-        let least = if is_small { tiny } else { least };
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
         let too_small = size_a < least || size_b < least;
         let first = if unlike || too_small || is_flat {
@@ -261,24 +246,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     /// Counts a pair of the smallest patches of which not all is known.
     fn doubt(&mut self, a: &Facet<'_>) {
         let [u, v] = a.patch.middle();
-        if !(self.matters)(a.patch.point(u, v)) {
-            return;
-        }
-        self.uncertain += 1;
-        let bounds = a.patch.bounds;
-        let doubt = Doubt {
-            regions: self.pair.sheets.map(|sheet| sheet.region),
-            low: bounds.low,
-            high: bounds.high,
-            gap: bounds.extent(),
-            what: "may touch or cross once more",
-        };
-        let reach = BESIDE_DOUBTS * self.pair.tolerances.scale;
-        let mut known = self.doubts.iter_mut();
-        match known.find(|known| known.is_beside(&doubt, reach)) {
-            Some(known) => known.join(&doubt),
-            None => self.doubts.push(doubt),
-        }
+        self.uncertain += usize::from((self.matters)(a.patch.point(u, v)));
     }
 
     /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
