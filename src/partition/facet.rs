@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::bounds::Bounds;
-use super::patch::Patch;
+use super::patch::{Along, Patch};
 
 /// Keeps a share defined where neither of two ranges has a width.
 const TINY: f64 = 1e-12;
@@ -28,22 +28,22 @@ impl<'a> Facet<'a> {
         self.normals.map_or(f64::INFINITY, |normals| normals.1)
     }
 
-    /// Hands on those of its halves, across the longer direction, of which first the box and then the patch are wanted.
+    /// Hands on those of its halves of which first the box and then the patch are wanted.
     pub(super) fn halve(
         &self,
+        along: Along,
         box_is_wanted: impl Fn(&Bounds) -> bool,
         is_wanted: impl Fn(&Patch) -> bool,
         mut each: impl FnMut(&Facet<'static>),
     ) {
-        self.patch
-            .halve(self.patch.longer(), box_is_wanted, |half| {
-                if is_wanted(&half) {
-                    each(&Facet {
-                        normals: half.normals(),
-                        patch: Cow::Owned(half),
-                    });
-                }
-            });
+        self.patch.halve(along, box_is_wanted, |half| {
+            if is_wanted(&half) {
+                each(&Facet {
+                    normals: half.normals(),
+                    patch: Cow::Owned(half),
+                });
+            }
+        });
     }
 
     /// Whether no normal of one facet is parallel to one of another, by their cones.

@@ -50,6 +50,7 @@ mod seeds;
 mod sheet;
 mod solids;
 mod solve;
+mod stretch;
 mod topology;
 mod touch;
 mod tracks;

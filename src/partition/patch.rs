@@ -104,6 +104,15 @@ impl Patch {
         (self.thin, self.slab)
     }
 
+    /// The same with all elevations multiplied.
+    pub(super) fn stretched(&self, by: f64) -> Self {
+        let mut patch = self.clone();
+        for point in &mut patch.net {
+            point.z *= by;
+        }
+        patch.measured()
+    }
+
     fn control(&self, i: usize, j: usize) -> DVec3 {
         let h = self.net[i * self.columns + j];
         if self.rational {

@@ -302,6 +302,7 @@ impl<'a> Piercing<'a> {
             }
         } else {
             facet.halve(
+                patch.longer(),
                 |bounds| bounds.meets(&segment.bounds),
                 |half| segment.may_pass(half),
                 |half| self.pieces(segment, half),

@@ -3,6 +3,13 @@
 //! A pair of patches whose normals have no direction in common crosses in simple arcs, one behind the other: a loop, or two
 //! side by side, would need parallel normals somewhere. So one place on an arc is enough where it is alone ([`Chords`]); else the
 //! halves are asked. An attempt to land on it that fails says nothing either: the arc may be far from where it is looked for.
+//!
+//! Normals tell most where sheets are about as steep as they are level. A flat lens of 30 m by 30 cm turns by a right angle within
+//! millimetres at its rim, and where a long sheet is uneven across only, halves of its longer side are as uneven as the whole. So what
+//! is not decided is looked at again ([`Search::again`]) stretched upwards, as it may be: whether sheets meet, and in one curve, does not
+//! change; and patches are halved across the direction in which their normals vary more.
+
+use std::borrow::Cow;
 
 use glam::DVec3;
 
@@ -13,11 +20,14 @@ use super::hermite::{Branch, Node};
 use super::pair::{Closing, PARALLEL, Pair, Step, lies};
 use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
+use super::stretch::Stretch;
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 1e-5;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
+/// Most halvings at first, before they are looked at again.
+const MOST_AT_FIRST: usize = 100_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
 const ENOUGH: usize = 64;
 /// Sheets that cross at more than this sine do not touch nearby.
@@ -54,6 +64,10 @@ pub(super) struct Search<'a, F> {
     /// Smallest pairs of patches with a curve where another one is not excluded.
     pub(super) uncertain: usize,
     halvings: usize,
+    /// How what is halved is stretched.
+    stretch: Stretch,
+    /// Whether this is the second time.
+    is_again: bool,
 }
 
 /// Where an attempt to land has ended.
@@ -88,11 +102,26 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             certain: 0,
             uncertain: 0,
             halvings: 0,
+            stretch: Stretch::NONE,
+            is_again: false,
         }
     }
 
     pub(super) fn run(&mut self) {
         let [a, b] = self.shapes;
+        self.nodes(a.root(), b.root());
+        let is_decided = self.undecided == 0 && !self.gave_up();
+        if !is_decided && self.pair.lifted.is_none() {
+            self.again();
+        }
+    }
+
+    /// Looks once more for everything, in the other way. Curves that were found stay.
+    fn again(&mut self) {
+        let [a, b] = self.shapes;
+        self.stretch = Stretch::of([a, b]);
+        self.is_again = true;
+        (self.undecided, self.certain, self.uncertain, self.halvings) = (0, 0, 0, 0);
         self.nodes(a.root(), b.root());
     }
 
@@ -107,7 +136,17 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             (NodeKind::Leaf(p), NodeKind::Leaf(q)) => {
                 let (one, other) = (a.patch(p), b.patch(q));
                 let beside = self.twins && are_beside(&one, &other);
-                if !beside && !apart(&one, &other, self.slack) {
+                if beside || apart(&one, &other, self.slack) {
+                    return;
+                }
+                if self.is_again {
+                    let [one, other] = [one, other].map(|patch| self.stretch.patch(&patch));
+                    let facet = |patch: Patch| {
+                        let normals = patch.normals();
+                        Facet::whole(Cow::Owned(patch), normals)
+                    };
+                    self.patches(&facet(one), &facet(other));
+                } else {
                     self.patches(&a.facet(p), &b.facet(q));
                 }
             }
@@ -133,16 +172,17 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST || self.undecided >= ENOUGH {
+        if self.gave_up() || self.undecided >= ENOUGH {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
-        let (clip, around) = (self.clip, self.around);
+        let (clip, around) = (self.clip, self.stretch.bounds(&self.around));
+        let slack = self.stretch.distance(self.slack);
         let flat = a.lean() < FLAT && b.lean() < FLAT;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
         // Where boxes and slabs overlap they may still be apart along the line of their planes.
-        if flat && a.is_past(b, self.slack) {
+        if flat && a.is_past(b, slack) {
             return;
         }
         if flat && a.is_askew(b) {
@@ -156,7 +196,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             }
             if is_small {
                 let [u, v] = a.patch.middle();
-                let counts = landing.is_some() && (self.matters)(a.patch.point(u, v));
+                let counts =
+                    landing.is_some() && (self.matters)(self.stretch.back(a.patch.point(u, v)));
                 self.uncertain += usize::from(counts);
                 return;
             }
@@ -176,14 +217,21 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
         let too_small = size_a < least || size_b < least;
-        let first = if unlike || too_small || (a.lean() < FLAT && b.lean() < FLAT) {
+        let by_size = unlike || too_small || (!self.is_again && flat);
+        let first = if by_size {
             size_a > size_b
         } else {
             a.lean() > b.lean()
         };
         let (halved, other) = if first { (a, b) } else { (b, a) };
-        let (slack, twins) = (self.slack, self.twins);
+        let along = if self.is_again && flat {
+            halved.patch.less_even()
+        } else {
+            halved.patch.longer()
+        };
+        let twins = self.twins;
         halved.halve(
+            along,
             |bounds| bounds.grown(slack).meets(&other.patch.bounds) && around.meets(bounds),
             |half| {
                 let beside = twins && are_beside(half, &other.patch);
@@ -248,11 +296,14 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         };
         let closing = Closing::Plane(tangent, small.0);
         let around = grown(REACH);
+        let (across, through) = self.stretch.plane_back(tangent, small.0);
         // Most attempts end with the first step, for which both patches are known.
         let step = Step::new(&jets, &q, closing)?;
         step.apply(&mut q);
         let landed = lies(&q, &around)
-            && self.pair.newton_within(&mut q, closing, 10, &around)
+            && self
+                .pair
+                .newton_within(&mut q, Closing::Plane(across, through), 10, &around)
             && lies(&q, &within);
         if !landed {
             return None;
@@ -313,7 +364,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// Whether the search was given up.
     pub(super) fn gave_up(&self) -> bool {
-        self.halvings > MOST
+        let most = if self.is_again { MOST } else { MOST_AT_FIRST };
+        self.halvings > most
     }
 }
 

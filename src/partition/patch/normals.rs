@@ -6,11 +6,13 @@
 use glam::{DVec3, Vec4Swizzles};
 use smallvec::SmallVec;
 
-use super::Patch;
+use super::{Along, Patch};
 use crate::partition::cone::cone;
 
 /// Most legs along v of patches whose normals are compared one by one: of 4 × 4 control points there are 12.
 const LANES: usize = 12;
+/// A direction is less even than the other one if normals turn by so much more along it.
+const UNEVEN: f64 = 2.0;
 
 /// Steps between neighbouring control points, along u and along v.
 #[derive(Default)]
@@ -106,6 +108,35 @@ impl Patch {
         least.iter().all(|least| *least > 0.0)
     }
 
+    /// The direction along which its normals turn more, by the products of legs at its control points; the longer one if both are
+    /// about as even.
+    pub(in crate::partition) fn less_even(&self) -> Along {
+        let (last_u, last_v) = (self.rows - 1, self.columns - 1);
+        let normal = |i: usize, j: usize| {
+            let (u, v) = (i.min(last_u - 1), j.min(last_v - 1));
+            let along_u = self.control(u + 1, j) - self.control(u, j);
+            let along_v = self.control(i, v + 1) - self.control(i, v);
+            along_u.cross(along_v).normalize_or_zero()
+        };
+        let turns = |one: DVec3, other: DVec3| one.cross(other).length();
+        let (mut in_u, mut in_v): (f64, f64) = (0.0, 0.0);
+        for j in 0..=last_v {
+            let all = (0..last_u).map(|i| turns(normal(i, j), normal(i + 1, j)));
+            in_u = in_u.max(all.sum());
+        }
+        for i in 0..=last_u {
+            let all = (0..last_v).map(|j| turns(normal(i, j), normal(i, j + 1)));
+            in_v = in_v.max(all.sum());
+        }
+        if in_u > UNEVEN * in_v {
+            Along::U
+        } else if in_v > UNEVEN * in_u {
+            Along::V
+        } else {
+            self.longer()
+        }
+    }
+
     fn legs(&self, legs: &mut Legs) {
         let leg = |from: usize, to: usize| {
             let [from, to] = [from, to].map(|at| {
@@ -191,6 +222,29 @@ mod tests {
         let low = slopes.iter().copied().fold(f64::INFINITY, f64::min);
         let high = slopes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         assert!((range[0] - low).abs() < 1e-12 && (range[1] - high).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_patch_is_less_even_along_what_it_is_bent_along_however_long_it_is() {
+        let bent_along_u = |length: f64| {
+            let net: Vec<DVec3> = (0..16)
+                .map(|k| (f64::from(k / 4), f64::from(k % 4) * length))
+                .map(|(x, y)| DVec3::new(x, y, 0.1 * x * x))
+                .collect();
+            Patch::new(4, &net, &[1.0; 16], [0.0, 1.0], [0.0, 1.0])
+        };
+        for length in [0.01, 1.0, 100.0] {
+            assert_eq!(bent_along_u(length).less_even(), Along::U);
+        }
+        let plane = |length: f64| {
+            let net = [[0.0, 0.0], [0.0, length], [1.0, 0.0], [1.0, length]]
+                .map(|[x, y]| DVec3::new(x, y, 0.0));
+            Patch::new(2, &net, &[1.0; 4], [0.0, 1.0], [0.0, 1.0])
+        };
+        assert_eq!(
+            [plane(3.0), plane(0.3)].map(|p| p.less_even()),
+            [Along::V, Along::U]
+        );
     }
 
     #[test]
