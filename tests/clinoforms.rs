@@ -74,9 +74,9 @@ impl Sheet {
     /// The sheet's part of the unit's height.
     fn height(&self, d: f64, q: f64) -> f64 {
         let ellipse = |td: f64, ts: f64| self.origin + td * (1.0 - (q / ts).powi(2)).sqrt();
-        let (top, toe) = (ellipse(TD, TS), ellipse(TD + self.length, TS + self.length));
-        let u = ((d - top) / (toe - top)).clamp(0.0, 1.0);
-        (1.0 - u).powi(2)
+        let (top, base) = (ellipse(TD, TS), ellipse(TD + self.length, TS + self.length));
+        let s = ((base - d) / (base - top)).clamp(0.0, 1.0);
+        s.powi(2)
     }
 }
 
@@ -298,6 +298,58 @@ fn sets_stacked_on_each_other_with_the_same_belts_are_each_half_as_high() {
                 assert!((size - half).abs() < 1.0, "{name} is {size}, not {half}");
             }
         }
+    }
+}
+
+#[test]
+fn belts_as_wide_as_clinoforms_are_apart_end_where_the_next_one_begins() {
+    // The second belt of a clinothem reaches from its own shoreline to the next one.
+    let belts = "belts = [{ name = \"near\", facies = \"sand\", width = 40 }, { name = \"far\", facies = \"sand\", width = 40 }, \
+                 { name = \"rest\", facies = \"sand\" }]\n";
+    let text = SET
+        .replace("AZIMUTH", "270")
+        .replace("spacing = { uniform = [40, 120] }", "spacing = 80")
+        .replace("first = { uniform = [100, 150] }", "first = 200");
+    let plain = built(from_text(&text));
+    let made = built(from_text(&(text + belts)));
+    for k in 1..=4 {
+        let parts = ["near", "far", "rest"].map(|belt| made.size(&format!("set-{k}/{belt}")));
+        let wanted = plain.size(&format!("set-{k}"));
+        // By age clinoforms are moved by a millionth of the domain's size at most.
+        assert!((parts.iter().sum::<f64>() - wanted).abs() < 1e-6 * wanted + 20.0 * 400.0 * 1e-3);
+        assert!(parts.iter().all(|part| *part > 1e3), "{parts:?}");
+    }
+}
+
+#[test]
+fn of_a_unit_that_is_nowhere_there_are_no_clinoforms() {
+    for level in [-20, -25] {
+        let text = SET.replace("AZIMUTH", "320")
+            + "[[feature]]\nid = \"below\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = -8 }\n\
+               [[feature]]\nid = \"cover\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = LEVEL }\n";
+        let text = text
+            .replace(
+                "kind = \"clinoforms\"",
+                "kind = \"clinoforms\"\nparent = \"below\"",
+            )
+            .replace("LEVEL", &level.to_string());
+        // The set comes after the horizon whose unit it divides.
+        let (head, rest) = text.split_once("[[feature]]").unwrap();
+        let (set, rest) = rest.split_once("[[feature]]").unwrap();
+        let (below, cover) = rest.split_once("[[feature]]").unwrap();
+        let text = format!("{head}[[feature]]{below}[[feature]]{set}[[feature]]{cover}")
+            .replace("z = [-20, 0]", "z = [-40, 0]");
+        let made = built(from_text(&text));
+        assert_eq!(made.realisation.volume("below/set-1"), None);
+        assert_eq!(made.size("below"), 0.0);
+        let cover = 900.0 * 400.0 * -f64::from(level);
+        assert!((made.size("cover") - cover).abs() < 1e-3);
+        let told = &made.plan.decisions;
+        assert!(
+            told.iter()
+                .any(|text| text.contains("set has no clinoforms")),
+            "{told:?}"
+        );
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{Draws, Key, Reason, Rejected};
 use crate::features::boundary::{BoundaryDesign, FaciesBoundary, Wander};
 use crate::features::clinoform::{Clinoform, ClinoformDesign};
-use crate::features::frame::{ClinoformFrame, ClinoformUnit, Shoreline};
+use crate::features::frame::{ClinoformFrame, ClinoformUnit, FrameError, Shoreline};
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::side::Side;
 use crate::model::spec::{Belt, ClinoformsSpec, Domain, HorizonSurface, Interfingering};
@@ -23,6 +23,8 @@ const TOE: f64 = 0.3;
 /// 120 m in the case study of \[J19\].
 const NODES: [f64; 2] = [0.0767, 0.1534];
 
+/// Of a set that is moved landwards by a tiny distance: by which part of it each of its belts is wider.
+const WIDER: f64 = 0.41;
 /// How often the boundaries of belts turn at most.
 const MOST_TURNS: f64 = 1000.0;
 
@@ -41,6 +43,17 @@ pub(in crate::model) struct DrawnSet {
     /// By clinothem, from the one below the first sheet to the one above the last: the boundaries between its belts,
     /// landward ones first.
     pub(in crate::model) boundaries: Vec<Vec<DrawnSide>>,
+    /// Whether there is a unit.
+    pub(in crate::model) unit: Unit,
+}
+
+/// How far the unit of a clinoform set reaches.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::model) enum Unit {
+    /// Through the domain.
+    Through,
+    /// Nowhere: its top is not above its base, as at some place.
+    Nowhere(String),
 }
 
 /// The corners of a domain.
@@ -133,7 +146,7 @@ pub(in crate::model) fn clinoforms(
 ) -> Result<DrawnSet, Rejected> {
     attempt(key, |draws| {
         let (low, high) = corners(domain);
-        let wrong = |error: crate::features::frame::FrameError| ("no set", error.to_string());
+        let wrong = |error: FrameError| ("no set", error.to_string());
         let azimuth = draws.quantity(&spec.azimuth_deg, "azimuth_deg")?;
         let shoreline = Shoreline {
             dip: draws.quantity(&spec.shoreline[0], "shoreline.dip")?,
@@ -155,14 +168,26 @@ pub(in crate::model) fn clinoforms(
             );
             return Err(("toe too flat", message));
         }
+        let unit = match ClinoformUnit::new(base.clone(), top.clone(), low, high) {
+            // All of it was removed, or it never was there: nothing is left to divide.
+            Err(FrameError::Nowhere(place)) => {
+                return Ok(DrawnSet {
+                    sheets: Vec::new(),
+                    boundaries: vec![Vec::new()],
+                    unit: Unit::Nowhere(place.to_string()),
+                });
+            }
+            unit => unit.map_err(wrong)?,
+        };
         let set = Set {
             spec,
             frame,
             turns,
-            unit: ClinoformUnit::new(base.clone(), top.clone(), low, high).map_err(wrong)?,
+            unit,
             shoreline,
             exponent,
             toe,
+            nudge,
         };
         set.draw(draws)
     })
@@ -203,6 +228,8 @@ struct Set<'a> {
     shoreline: Shoreline,
     exponent: f64,
     toe: f64,
+    /// By how much the set is moved basinwards (m).
+    nudge: f64,
 }
 
 impl Set<'_> {
@@ -258,6 +285,7 @@ impl Set<'_> {
         Ok(DrawnSet {
             sheets: sheets.into_iter().map(side).collect(),
             boundaries,
+            unit: Unit::Through,
         })
     }
 
@@ -270,12 +298,15 @@ impl Set<'_> {
     ) -> Result<Vec<DrawnSide>, Reason> {
         let mut distance = 0.0;
         let mut made = Vec::new();
-        for Belt {
-            name,
-            width,
-            interfingering,
-            ..
-        } in &self.spec.belts
+        for (
+            at,
+            Belt {
+                name,
+                width,
+                interfingering,
+                ..
+            },
+        ) in self.spec.belts.iter().enumerate()
         {
             let Some(width) = width else { break };
             let before = draws.drawn.len();
@@ -292,7 +323,8 @@ impl Set<'_> {
                 self.even_nodes()
             };
             let design = BoundaryDesign {
-                distance,
+                // Belts as wide as clinoforms are apart end where the next one begins.
+                distance: distance - WIDER * (at + 1) as f64 * self.nudge,
                 interfingering: range,
                 wander: match self.spec.interfingering {
                     Interfingering::Smooth => Wander::Smooth(nodes),

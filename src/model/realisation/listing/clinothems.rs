@@ -4,7 +4,7 @@ use super::{Listing, impossible_domain};
 use crate::features::body::Body;
 use crate::features::horizon::Horizon;
 use crate::features::side::Side;
-use crate::model::draws::strata::DrawnSide;
+use crate::model::draws::strata::{DrawnSide, Unit};
 use crate::model::draws::{self, strata};
 use crate::model::realisation::{RealisationError, draw_whole};
 use crate::model::rules::BACKGROUND;
@@ -91,6 +91,13 @@ impl Listing<'_> {
         let (set, reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
         let rejected = reasons.into_iter().map(|reason| (Some(index), reason));
         self.rejected.extend(rejected);
+        let id = &feature.id;
+        match &set.unit {
+            Unit::Through => {}
+            Unit::Nowhere(place) => self.decisions.push(format!(
+                "{id} has no clinoforms: its unit is nowhere in the domain, since its top is too low; {place}"
+            )),
+        }
         let names = Names {
             start: format!("{path}{}-", feature.id),
             belts: &spec.belts,
