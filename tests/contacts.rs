@@ -142,6 +142,26 @@ fn a_top_may_touch_an_older_base() {
 }
 
 #[test]
+fn storeys_may_have_a_level_at_which_others_meet_far_from_them() {
+    let row = |y: f64| ([-50.0, y], [450.0, y]);
+    let made = report(&[
+        channel(30.0, 6.0, -12.0, row(60.0)),
+        channel(30.0, 6.0, -6.0, row(60.0)),
+        channel(40.0, 5.0, -12.0, row(200.0)),
+        channel(40.0, 5.0, -12.0, row(240.0)),
+    ]);
+    assert_eq!(made["assembly"]["engine"], "partition");
+    let alone =
+        |width: f64, depth: f64| volume(&report(&[channel(width, depth, -12.0, row(60.0))]), "c1");
+    let sizes = [alone(30.0, 6.0), alone(40.0, 5.0)];
+    for (name, wanted) in [("c1", 0), ("c2", 0), ("c3", 1), ("c4", 1)] {
+        // Micrometres along 400 m of rims and thalwegs.
+        let miss = volume(&made, name) - sizes[wanted];
+        assert!(miss.abs() < 0.1, "{name}: {miss}");
+    }
+}
+
+#[test]
 fn banks_that_overhang_and_ends_inside_may_lie_at_the_domains_top() {
     let (from, to) = SLANTED;
     report(&[

@@ -39,7 +39,7 @@ impl Built {
             engine: Engine::Auto,
             child: Some(worker::Child {
                 program: PathBuf::from(env!("CARGO_BIN_EXE_clinothem")),
-                time_limit: Duration::from_secs(600),
+                time_limit: Some(Duration::from_secs(600)),
             }),
             threads: 0,
             proof: proof::Level::Full,

@@ -89,18 +89,28 @@ impl Column {
                 .and_then(Value::as_str)
                 .ok_or("a horizon has no id")?;
             let relation = feature.get("relation").and_then(Value::as_str);
+            let surface = feature.get("surface").ok_or("no surface")?;
+            let height = if let Some(below) = surface.get("above").and_then(Value::as_str) {
+                let below = column.names.iter().position(|name| name == below);
+                // The names begin with the background's.
+                let below = below.ok_or("a bed above no older horizon")? - 1;
+                Height::bed(below, surface.get("thickness").ok_or("no thickness")?)?
+            } else {
+                Height::new(surface)?
+            };
             column.names.push(id.to_owned());
             column.onlapping.push(relation == Some("onlapping"));
-            column
-                .heights
-                .push(Height::new(feature.get("surface").ok_or("no surface")?)?);
+            column.heights.push(height);
         }
         Ok(column)
     }
 
     /// How thick each volume is above a place, and the order of the horizons there.
     fn thickness(&self, x: f64, y: f64) -> (Vec<f64>, Vec<usize>) {
-        let heights: Vec<f64> = self.heights.iter().map(|height| height.at(x, y)).collect();
+        let mut heights: Vec<f64> = Vec::with_capacity(self.heights.len());
+        for height in &self.heights {
+            heights.push(height.at(x, y, &heights));
+        }
         let mut order: Vec<usize> = (0..heights.len()).collect();
         order.sort_by(|a, b| heights[*a].total_cmp(&heights[*b]).then(a.cmp(b)));
         let mut levels = vec![self.z[0]];
@@ -189,8 +199,13 @@ impl Column {
 
 /// One horizon.
 enum Height {
-    Plane { rise: [f64; 2], at_origin: f64 },
+    Plane {
+        rise: [f64; 2],
+        at_origin: f64,
+    },
     Spline(Spline),
+    /// So much above an older one, from the oldest.
+    Above(usize, Box<Self>),
 }
 
 impl Height {
@@ -223,10 +238,36 @@ impl Height {
         Ok(Self::Spline(Spline::new(grid)?))
     }
 
-    fn at(&self, x: f64, y: f64) -> f64 {
+    /// A bed above an older horizon, with a thickness at all nodes: how others go on below nothing is the program's affair.
+    fn bed(below: usize, thickness: &Value) -> Result<Self, String> {
+        let thickness = if let Some(thickness) = number(thickness) {
+            Self::Plane {
+                rise: [0.0; 2],
+                at_origin: thickness,
+            }
+        } else {
+            let grid = thickness
+                .get("grid")
+                .ok_or("a thickness that is no grid or number")?;
+            Self::Spline(Spline::new(grid)?)
+        };
+        let is_everywhere = match &thickness {
+            Self::Spline(spline) => spline.tables[0].iter().all(|value| *value > 0.0),
+            Self::Plane { at_origin, .. } => *at_origin > 0.0,
+            Self::Above(..) => false,
+        };
+        if !is_everywhere {
+            return Err("a bed that ends is not integrated".to_owned());
+        }
+        Ok(Self::Above(below, Box::new(thickness)))
+    }
+
+    /// Given those of all older ones.
+    fn at(&self, x: f64, y: f64, older: &[f64]) -> f64 {
         match self {
             Self::Plane { rise, at_origin } => at_origin + rise[0] * x + rise[1] * y,
             Self::Spline(spline) => spline.at(x, y),
+            Self::Above(below, thickness) => older[*below] + thickness.at(x, y, older),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The general fuse as engine: a ladder of remedies, each another way of giving the same bodies to the kernel.
 
+use std::time::Duration;
+
 use glam::DVec3;
 
 use super::closed;
@@ -58,6 +60,24 @@ const fn remedy(
     }
 }
 
+/// No fuse takes longer unless it is asked to.
+const LONGEST: Duration = Duration::from_secs(1800);
+/// What a fuse may take where the partition was in doubt, and how much longer for each pair of bodies: several times as long
+/// as it takes (3 s for 20 channels that cross, 23 s for 60). One that takes longer hangs on what touches.
+const BUDGET: Duration = Duration::from_secs(20);
+const BUDGET_OF_A_PAIR: Duration = Duration::from_millis(100);
+
+/// How long a fuse of so many bodies may take if nobody says it.
+fn budget(bodies: usize, engine: Engine) -> Duration {
+    if engine == Engine::Occt {
+        return LONGEST;
+    }
+    let pairs = u32::try_from(bodies * bodies.saturating_sub(1) / 2).unwrap_or(u32::MAX);
+    BUDGET
+        .saturating_add(BUDGET_OF_A_PAIR.saturating_mul(pairs))
+        .min(LONGEST)
+}
+
 /// One attempt: the fuse's result, or why there is none. `Err` ends all attempts.
 pub(super) fn attempt(
     plan: &AssemblyPlan,
@@ -90,6 +110,15 @@ pub(super) fn attempt(
     }
 }
 
+/// An attempt that was stopped after so long.
+pub(super) fn stopped(remedy: &Remedy, limit: Duration) -> Failed {
+    let why = format!(
+        "{}; --time-limit lets it take longer",
+        WorkerError::TooLong(limit)
+    );
+    Failed::new(Engine::Occt, remedy.name, why)
+}
+
 /// What a fuse has made.
 pub(super) struct Fused {
     pub(super) solids: Solids,
@@ -105,7 +134,12 @@ fn fuse(
     progress: &(dyn Fn(f64) + Sync),
 ) -> worker::Outcome {
     match &options.child {
-        Some(child) => worker::run(job, child, cancel, progress),
+        Some(child) => {
+            let bodies = job.shells.len() + job.bounds.len();
+            let limit = child.time_limit;
+            let limit = limit.unwrap_or_else(|| budget(bodies, options.engine));
+            worker::run(job, (&child.program, limit), cancel, progress)
+        }
         None => Ok(kernel::fuse(job, cancel, progress)),
     }
 }
@@ -246,4 +280,21 @@ pub(super) fn names(plan: &AssemblyPlan, volumes: &[usize]) -> String {
         names.push("…");
     }
     names.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fuse_in_doubt_may_take_several_times_what_it_takes_and_never_half_an_hour_for_five_bodies()
+    {
+        let seconds = |bodies| budget(bodies, Engine::Auto).as_secs_f64();
+        assert_eq!(seconds(0), 20.0);
+        assert_eq!(seconds(5), 21.0);
+        // docs/benchmarks.md: belts of 20 and of 60 channels.
+        assert!(seconds(20) > 5.0 * 3.1 && seconds(60) > 5.0 * 23.0);
+        assert_eq!(seconds(1_000_000), 1800.0);
+        assert_eq!(budget(5, Engine::Occt), LONGEST);
+    }
 }

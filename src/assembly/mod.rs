@@ -211,7 +211,17 @@ pub fn assemble(
     }
     if options.engine != Engine::Partition {
         for remedy in &fused::LADDER {
-            let made = run.timed(|run| run.fuse(remedy))?;
+            let made = match run.timed(|run| run.fuse(remedy)) {
+                // What the partition was in doubt about says more than that the fuse was, too.
+                Err(AssemblyError::Worker {
+                    source: WorkerError::TooLong(limit),
+                    ..
+                }) if options.engine == Engine::Auto => {
+                    run.failed.push(fused::stopped(remedy, limit));
+                    break;
+                }
+                made => made?,
+            };
             if let Some(assembly) = run.judge(made)? {
                 return Ok((run.subject, assembly));
             }

@@ -24,8 +24,8 @@ pub const COMMAND: &str = "fuse-worker";
 pub struct Child {
     /// The program to start: one whose [`COMMAND`] calls [`serve`].
     pub program: PathBuf,
-    /// After this the child is ended.
-    pub time_limit: Duration,
+    /// After this the child is ended; none: as long as a fuse of so many bodies may take.
+    pub time_limit: Option<Duration>,
 }
 
 /// What the names of its folders for results begin with.
@@ -66,24 +66,24 @@ pub enum WorkerError {
 /// What a fuse came to: an outer error of the process, or an inner one of the kernel.
 pub(crate) type Outcome = Result<Result<(Solids, FuseReport), FuseError>, WorkerError>;
 
-/// Runs a job in a child process, passing on its progress, until it answers, fails, takes too long or is
+/// Runs a job in a child process, passing on its progress, until it answers, fails, takes longer than it may or is
 /// cancelled.
 pub(crate) fn run(
     job: &FuseJob,
-    how: &Child,
+    (program, limit): (&Path, Duration),
     cancel: &Cancel,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Outcome {
     let folder = Unfinished::new(&std::env::temp_dir(), FOLDERS)?;
     let result = folder.path().join("fused");
-    let mut child = Command::new(&how.program)
+    let mut child = Command::new(program)
         .arg(COMMAND)
         .arg(&result)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()?;
-    let outcome = supervise(&mut child, job, how, cancel, progress);
+    let outcome = supervise(&mut child, job, limit, cancel, progress);
     if outcome.is_err() || matches!(outcome, Ok(Err(FuseError::Cancelled))) {
         // Already ended, or to be ended: both are fine, and nothing is left to wait for.
         drop(child.kill());
@@ -99,7 +99,7 @@ pub(crate) fn run(
 fn supervise(
     child: &mut std::process::Child,
     job: &FuseJob,
-    how: &Child,
+    limit: Duration,
     cancel: &Cancel,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Result<(), FuseError>, WorkerError> {
@@ -145,9 +145,9 @@ fn supervise(
                 drop(child.kill());
                 return Ok(Err(FuseError::Cancelled));
             }
-            if started.elapsed() > how.time_limit {
+            if started.elapsed() > limit {
                 drop(child.kill());
-                return Err(WorkerError::TooLong(how.time_limit));
+                return Err(WorkerError::TooLong(limit));
             }
             match receive.recv_timeout(PATIENCE) {
                 Ok(line) => {

@@ -60,9 +60,10 @@ pub(super) struct EngineArgs {
     /// Worker threads; all of the machine's if not given.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Stop a general fuse that takes longer (s).
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, default_value_t = 1800, value_parser = clap::value_parser!(u64).range(1..))]
-    time_limit: u64,
+    /// Stop a general fuse that takes longer (s). If not given, auto lets it take 20 s and 0.1 s for each pair of bodies, and at
+    /// most 1800 s; occt 1800 s.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: Option<u64>,
     /// Where a model is refused, tell what every engine tried and what went wrong in it.
     #[arg(short, long)]
     verbose: bool,
@@ -235,7 +236,7 @@ pub(super) fn assemble(
         engine: engine.engine.into(),
         child: Some(worker::Child {
             program,
-            time_limit: Duration::from_secs(engine.time_limit),
+            time_limit: engine.time_limit.map(Duration::from_secs),
         }),
         threads: engine.threads.map_or(0, usize::from),
         proof: engine.level(),

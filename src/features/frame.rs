@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::horizon::{Horizon, HorizonError};
-use super::thickness::{self, NoThickness};
+use super::thickness::{NoThickness, Thickness};
 use super::trajectory::azimuth_vector;
 
 /// How far the common strikes reach beyond the domain, as a fraction of its half extent along strike.
@@ -43,6 +43,9 @@ pub enum FrameError {
         "the top of the unit lies too low: {0}; the horizons of a clinoform set must not meet inside the domain"
     )]
     TopBelowBase(NoThickness),
+    /// The top is nowhere above the base.
+    #[error("the top of the unit is nowhere above its base: {0}")]
+    Nowhere(NoThickness),
     /// A horizon has no bounds over the domain.
     #[error(transparent)]
     Horizon(#[from] HorizonError),
@@ -202,10 +205,14 @@ pub struct ClinoformUnit {
 impl ClinoformUnit {
     /// The unit between two horizons over a domain's plan.
     pub fn new(base: Horizon, top: Horizon, low: DVec3, high: DVec3) -> Result<Self, FrameError> {
+        let thickness =
+            Thickness::new(&base, &top, [low, high], SAMPLES).map_err(FrameError::Nowhere)?;
+        if let Some(place) = thickness.none {
+            return Err(FrameError::TopBelowBase(place));
+        }
+        let height = thickness.mean;
         let (lowest, _) = base.range(low, high)?;
         let (_, highest) = top.range(low, high)?;
-        let height =
-            thickness::mean(&base, &top, [low, high], SAMPLES).map_err(FrameError::TopBelowBase)?;
         Ok(Self {
             base,
             top,

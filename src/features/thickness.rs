@@ -18,33 +18,66 @@ pub struct NoThickness {
     pub base: f64,
 }
 
-/// The mean thickness (m) between two horizons over a domain's plan, by a number of samples along each side; the first
-/// of them at which there is none ends the sum.
+/// The mean thickness (m) between two horizons over a domain's plan, by a number of samples along each side; an error if there
+/// is none at one of them.
 pub(super) fn mean(
     base: &Horizon,
     top: &Horizon,
-    [low, high]: [DVec3; 2],
+    plan: [DVec3; 2],
     samples: usize,
 ) -> Result<f64, NoThickness> {
-    let steps = (samples - 1) as f64;
-    let mut sum = 0.0;
-    for i in 0..samples {
-        for j in 0..samples {
-            let part = DVec2::new(i as f64, j as f64) / steps;
-            let DVec2 { x, y } = low.xy() + (high - low).xy() * part;
-            let (base, top) = (base.height(x, y), top.height(x, y));
-            if !(top > base) {
-                return Err(NoThickness { x, y, top, base });
+    let unit = Thickness::new(base, top, plan, samples)?;
+    unit.none.map_or(Ok(unit.mean), Err)
+}
+
+/// How thick what lies between two horizons is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Thickness {
+    /// The mean over the places that have a thickness (m).
+    pub(super) mean: f64,
+    /// The first place that has none.
+    pub(super) none: Option<NoThickness>,
+}
+
+impl Thickness {
+    /// By a number of samples along each side of a domain's plan; an error if none of them has any.
+    pub(super) fn new(
+        base: &Horizon,
+        top: &Horizon,
+        [low, high]: [DVec3; 2],
+        samples: usize,
+    ) -> Result<Self, NoThickness> {
+        let steps = (samples - 1) as f64;
+        let (mut sum, mut count) = (0.0, 0.0);
+        let mut none = None;
+        for i in 0..samples {
+            for j in 0..samples {
+                let part = DVec2::new(i as f64, j as f64) / steps;
+                let DVec2 { x, y } = low.xy() + (high - low).xy() * part;
+                let (base, top) = (base.height(x, y), top.height(x, y));
+                if top > base {
+                    sum += top - base;
+                    count += 1.0;
+                } else {
+                    none = none.or(Some(NoThickness { x, y, top, base }));
+                }
             }
-            sum += top - base;
+        }
+        match none {
+            Some(none) if count == 0.0 => Err(none),
+            _ => Ok(Self {
+                mean: sum / count,
+                none,
+            }),
         }
     }
-    Ok(sum / (samples * samples) as f64)
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+    use std::f64::consts::PI;
 
     use super::*;
 
@@ -73,5 +106,19 @@ mod tests {
         let NoThickness { y, .. } = mean(&flat(-9.99), &falling, PLAN, 5).unwrap_err();
         assert_eq!(y, 150.0);
         assert!(mean(&flat(-10.01), &falling, PLAN, 5).is_ok());
+    }
+
+    #[test]
+    fn the_mean_thickness_of_what_ends_is_that_of_what_there_is() {
+        // From 4 m above the base at the western border to 4 m below it at the eastern one.
+        let base = Horizon::flat(-10.0).unwrap();
+        let falling =
+            Horizon::dipping(DVec3::new(300.0, 0.0, -10.0), 0.02_f64.atan(), PI / 2.0).unwrap();
+        let wedge = Thickness::new(&base, &falling, PLAN, 401).unwrap();
+        assert!((wedge.mean - 2.0).abs() < 0.02, "{}", wedge.mean);
+        assert_eq!(wedge.none.map(|place| place.y), Some(-50.0));
+        let below = Horizon::flat(-11.0).unwrap();
+        let none = Thickness::new(&base, &below, PLAN, 5).unwrap_err();
+        assert_eq!((none.top, none.base), (-11.0, -10.0));
     }
 }

@@ -275,6 +275,15 @@ impl AssemblyPlan {
         let level_horizons: Vec<Option<f64>> =
             bodies.iter().map(|one| level_of(&one.body)).collect();
         let (horizons, of_bodies) = (Sorted::new(&level_horizons), Sorted::new(&levels));
+        // A lid reaches through the whole domain: all tops at its level end under it, wherever they are.
+        let meets = |i: usize, j: usize| j != i && boxes_meet_in_plan(&bounds[i], &bounds[j]);
+        let share = |i: usize, level: f64| of_bodies.near(level, same).any(|j| meets(i, j));
+        let shared: Vec<Option<f64>> = levels
+            .iter()
+            .enumerate()
+            .map(|(i, level)| level.filter(|level| share(i, *level)))
+            .collect();
+        let of_lids = Sorted::new(&shared);
         for (i, level) in levels.iter().enumerate() {
             let Some(level) = *level else { continue };
             if (level - self.high().z).abs() <= same {
@@ -293,8 +302,7 @@ impl AssemblyPlan {
                 ));
                 continue;
             }
-            let meets = |j: usize| j != i && boxes_meet_in_plan(&bounds[i], &bounds[j]);
-            let is_shared = of_bodies.near(level, same).any(meets);
+            let is_shared = of_lids.near(level, same).next().is_some();
             let runs_along = |one: &Reaching<'_>| match &*one.body {
                 Body::Side(side) => side.heights().is_some_and(|[lowest, highest]| {
                     lowest - same <= level && level <= highest + same

@@ -140,13 +140,15 @@ impl Realisation {
         let Volumes {
             rules: volumes,
             mut instances,
+            decisions: told,
         } = Volumes::of(model, selection, &list, made)?;
         let Listing {
             drawn,
-            decisions,
+            mut decisions,
             levels,
             ..
         } = list;
+        decisions.extend(told);
         if step > 0.0 {
             let apart = Apart {
                 step,

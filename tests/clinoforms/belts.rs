@@ -4,7 +4,7 @@ use clinothem::assembly::Engine;
 use clinothem::assembly::measure::Piece;
 use glam::DVec3;
 
-use super::{belts, built, from_text, of_file};
+use super::{SET, belts, built, from_text, of_file};
 
 #[test]
 fn belts_change_at_their_widths_from_the_shoreline_of_the_younger_sheet() {
@@ -57,4 +57,24 @@ fn the_coastal_model_is_proven_in_full_and_its_plain_stays_below_its_parasequenc
         [kind(a), kind(b)] == ["channel", "clinoforms"]
     });
     assert!(between.count() > 0);
+}
+
+#[test]
+fn belts_as_wide_as_clinoforms_are_apart_end_where_the_next_one_begins() {
+    // The second belt of a clinothem reaches from its own shoreline to the next one.
+    let belts = "belts = [{ name = \"near\", facies = \"sand\", width = 40 }, { name = \"far\", facies = \"sand\", width = 40 }, \
+                 { name = \"rest\", facies = \"sand\" }]\n";
+    let text = SET
+        .replace("AZIMUTH", "270")
+        .replace("spacing = { uniform = [40, 120] }", "spacing = 80")
+        .replace("first = { uniform = [100, 150] }", "first = 200");
+    let plain = built(from_text(&text));
+    let made = built(from_text(&(text + belts)));
+    for k in 1..=4 {
+        let parts = ["near", "far", "rest"].map(|belt| made.size(&format!("set-{k}/{belt}")));
+        let wanted = plain.size(&format!("set-{k}"));
+        // By age clinoforms are moved by a millionth of the domain's size at most.
+        assert!((parts.iter().sum::<f64>() - wanted).abs() < 1e-6 * wanted + 20.0 * 400.0 * 1e-3);
+        assert!(parts.iter().all(|part| *part > 1e3), "{parts:?}");
+    }
 }

@@ -19,9 +19,9 @@ impl Sheet {
     /// The sheet's part of the unit's height.
     pub(super) fn height(&self, d: f64, q: f64) -> f64 {
         let ellipse = |td: f64, ts: f64| self.origin + td * (1.0 - (q / ts).powi(2)).sqrt();
-        let (top, toe) = (ellipse(TD, TS), ellipse(TD + self.length, TS + self.length));
-        let u = ((d - top) / (toe - top)).clamp(0.0, 1.0);
-        (1.0 - u).powi(2)
+        let (top, base) = (ellipse(TD, TS), ellipse(TD + self.length, TS + self.length));
+        let s = ((base - d) / (base - top)).clamp(0.0, 1.0);
+        s.powi(2)
     }
 }
 

@@ -124,3 +124,35 @@ fn the_place_of_a_belt_that_is_left_out_goes_to_the_belt_landward_of_it() {
         assert!((own - wanted).abs() < 1e-9 * wanted, "{own} {wanted}");
     }
 }
+
+#[test]
+fn of_a_unit_that_is_nowhere_there_are_no_clinoforms() {
+    for level in [-20, -25] {
+        let text = SET.replace("AZIMUTH", "320")
+            + "[[feature]]\nid = \"below\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = -8 }\n\
+               [[feature]]\nid = \"cover\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = { level = LEVEL }\n";
+        let text = text
+            .replace(
+                "kind = \"clinoforms\"",
+                "kind = \"clinoforms\"\nparent = \"below\"",
+            )
+            .replace("LEVEL", &level.to_string());
+        // The set comes after the horizon whose unit it divides.
+        let (head, rest) = text.split_once("[[feature]]").unwrap();
+        let (set, rest) = rest.split_once("[[feature]]").unwrap();
+        let (below, cover) = rest.split_once("[[feature]]").unwrap();
+        let text = format!("{head}[[feature]]{below}[[feature]]{set}[[feature]]{cover}")
+            .replace("z = [-20, 0]", "z = [-40, 0]");
+        let made = built(from_text(&text));
+        assert_eq!(made.realisation.volume("below/set-1"), None);
+        assert_eq!(made.size("below"), 0.0);
+        let cover = 900.0 * 400.0 * -f64::from(level);
+        assert!((made.size("cover") - cover).abs() < 1e-3);
+        let told = &made.plan.decisions;
+        assert!(
+            told.iter()
+                .any(|text| text.contains("set has no clinoforms")),
+            "{told:?}"
+        );
+    }
+}

@@ -90,19 +90,27 @@ fn course(draws: &mut Draws, block: &Block, several: bool) -> Course {
         2 => {
             let count = draws.count(3, 6);
             let step = 2.0 * reach / (count - 1) as f64;
+            let degree = draws.chance(0.3).then(|| i64::from(draws.chance(0.7)) + 1);
+            // At a sharp corner a section would fold over itself.
+            let has_corners = degree == Some(1);
+            let (aside, share) = if has_corners {
+                (0.03, 0.1)
+            } else {
+                (0.2, 0.25)
+            };
             let points: Vec<Value> = (0..count)
-                .map(|i| place(step * i as f64 - reach, step * draws.within(-0.2, 0.2)).into())
+                .map(|i| place(step * i as f64 - reach, step * draws.within(-aside, aside)).into())
                 .collect();
             let mut way = table([("kind", "points".into()), ("points", points.into())]);
-            if draws.chance(0.3) {
-                set(&mut way, "degree", i64::from(draws.chance(0.7)) + 1);
+            if let Some(degree) = degree {
+                set(&mut way, "degree", degree);
             }
             if draws.chance(0.3) {
                 set(&mut way, "parametrization", "chord-length");
             }
             Course {
                 table: way,
-                widest: 0.25 * step.min(narrow),
+                widest: share * step.min(narrow),
             }
         }
         _ => {

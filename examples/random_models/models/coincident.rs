@@ -50,7 +50,7 @@ enum Along {
 impl Scene {
     /// One of the things that coincide.
     fn add(&mut self, draws: &mut Draws) {
-        match draws.count(0, 15) {
+        match draws.count(0, 16) {
             0 => self.crossing(draws),
             1 => self.thalweg_on_a_horizon(draws),
             2 => self.top_on_a_horizon(draws),
@@ -66,6 +66,7 @@ impl Scene {
             12 => self.rims_that_touch(draws),
             13 => self.sheets(draws),
             14 => self.meanders(draws),
+            15 => self.isochores(draws),
             _ => self.wedge(draws),
         }
     }
@@ -269,16 +270,6 @@ impl Scene {
 
     fn equal_horizons(&mut self, draws: &mut Draws) {
         let level = -self.height(draws, 3, 17);
-        let Block { x, y, .. } = self.block;
-        let grid = |heights: [[f64; 5]; 5]| {
-            let rows: Vec<Value> = heights.iter().map(|row| row.to_vec().into()).collect();
-            let grid = table([
-                ("x", x.to_vec().into()),
-                ("y", y.to_vec().into()),
-                ("heights", rows.into()),
-            ]);
-            table([("grid", grid.into())])
-        };
         self.horizon(draws, table([("level", level.into())]));
         let mut heights = [[level; 5]; 5];
         match draws.count(0, 3) {
@@ -300,7 +291,7 @@ impl Scene {
         let second = if draws.chance(0.25) {
             table([("level", level.into())])
         } else {
-            grid(heights)
+            self.grid(heights)
         };
         self.horizon(draws, second);
     }
@@ -368,6 +359,9 @@ impl Scene {
             draws.pick(&[0.25, 0.5, 0.4]) * length,
         );
         set(&mut sheets, "shoreline", vec![6.0 * length, 12.0 * length]);
+        if draws.chance(0.5) {
+            self.belts(draws, &mut sheets);
+        }
         self.features.push(sheets);
         if draws.chance(0.5) {
             let (width, depth, _) = self.sizes(draws);
@@ -375,6 +369,96 @@ impl Scene {
             let across = self.lane(draws, along);
             self.channel((width, depth, 0.0), self.straight(along, across));
         }
+    }
+
+    /// Belts of round widths, the same in each clinothem.
+    fn belts(&self, draws: &mut Draws, sheets: &mut Table) {
+        let [length, ..] = self.block.size();
+        let width = draws.pick(&[0.1, 0.2]) * length;
+        let mut belts = Vec::new();
+        for name in ["upper", "lower"] {
+            let mut belt = table([("name", name.into()), ("facies", "sand".into())]);
+            set(&mut belt, "width", width);
+            set(
+                &mut belt,
+                "interfingering",
+                draws.pick(&[0.0, 0.25]) * width,
+            );
+            belts.push(Value::from(belt));
+        }
+        belts.push(table([("name", "rest".into()), ("facies", "mud".into())]).into());
+        set(sheets, "belts", belts);
+        if draws.chance(0.5) {
+            let turn = draws.pick(&[0.1, 0.2]) * length;
+            set(sheets, "turns", vec![turn, draws.pick(&[1.0, 2.0]) * turn]);
+        }
+        set(sheets, "interfingering", draws.pick(&["smooth", "zigzag"]));
+    }
+
+    /// Beds on a level or dipping horizon: as thick as a channel is deep, as thick as each other, or ending at nodes or over
+    /// half of the plan.
+    fn isochores(&mut self, draws: &mut Draws) {
+        let level = -self.height(draws, 8, 17);
+        let mut below = self.id("unit");
+        let [x, y] = self.middle(draws);
+        let reference = if draws.chance(0.5) {
+            table([("level", level.into())])
+        } else {
+            let plane = table([
+                ("through", vec![x, y, level].into()),
+                ("dip_deg", draws.pick(&[0.5, 1.0]).into()),
+                ("azimuth_deg", draws.pick(&[0.0, 45.0, 90.0]).into()),
+            ]);
+            table([("dipping", plane.into())])
+        };
+        self.horizon(draws, reference);
+        let thick = self.height(draws, 1, 4);
+        for _ in 0..draws.count(1, 3) {
+            let mut heights = [[thick; 5]; 5];
+            let thickness: Value = match draws.count(0, 5) {
+                0 | 1 => thick.into(),
+                2 => {
+                    heights[2][2] = 0.0;
+                    self.grid(heights).into()
+                }
+                3 => {
+                    for row in &mut heights[2..] {
+                        *row = [0.0; 5];
+                    }
+                    self.grid(heights).into()
+                }
+                4 => {
+                    for row in &mut heights {
+                        row[0] = 0.0;
+                    }
+                    self.grid(heights).into()
+                }
+                _ => {
+                    for (j, row) in heights.iter_mut().enumerate() {
+                        for (i, z) in row.iter_mut().enumerate() {
+                            *z *= 0.5 * (i.abs_diff(2) + j.abs_diff(2)) as f64;
+                        }
+                    }
+                    self.grid(heights).into()
+                }
+            };
+            let next = self.id("unit");
+            let surface = table([("above", below.into()), ("thickness", thickness)]);
+            self.horizon(draws, surface);
+            below = next;
+        }
+    }
+
+    /// Heights, or thicknesses, at nodes over the block.
+    fn grid(&self, heights: [[f64; 5]; 5]) -> Table {
+        let Block { x, y, .. } = self.block;
+        let rows: Vec<Value> = heights.iter().map(|row| row.to_vec().into()).collect();
+        let grid = table([
+            ("x", x.to_vec().into()),
+            ("y", y.to_vec().into()),
+            ("heights", rows.into()),
+        ]);
+        table([("grid", grid.into())])
     }
 
     /// Meanders that mirror each other.

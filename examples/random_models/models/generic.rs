@@ -4,7 +4,7 @@ use toml::{Table, Value};
 
 use super::bodies::{channel, ellipsoid};
 use super::draws::{Draws, rounded};
-use super::strata::{clinoforms, horizon, surface};
+use super::strata::{clinoforms, horizon, isochore, surface};
 use super::tables::{Block, FACIES, model as whole, set, table};
 
 /// A block of a hundred metres to a few kilometres.
@@ -40,12 +40,12 @@ pub(super) fn model(draws: &mut Draws) -> Table {
     // What is within these is within the domain's own base and top, too.
     let (mut lowest, mut highest) = (0.04, 0.96);
     if draws.chance(0.12) {
-        let mean = block.elevation(draws.within(0.05, 0.15));
+        let mean = block.elevation(draws.within(0.1, 0.16));
         set(&mut domain, "base", bound(draws, &block, mean));
         lowest = 0.25;
     }
     if draws.chance(0.12) {
-        let mean = block.elevation(draws.within(0.85, 0.95));
+        let mean = block.elevation(draws.within(0.84, 0.9));
         set(&mut domain, "top", bound(draws, &block, mean));
         highest = 0.75;
     }
@@ -128,7 +128,7 @@ fn position(features: &[Table], id: &Value) -> Option<usize> {
 
 /// A surface that stays near an elevation.
 fn bound(draws: &mut Draws, block: &Block, mean: f64) -> Table {
-    let relief = block.size()[2] * draws.within(0.005, 0.04);
+    let relief = block.size()[2] * draws.within(0.005, 0.035);
     surface(draws, block, mean, relief)
 }
 
@@ -159,6 +159,12 @@ fn strata(
             height * apart * draws.magnitude(0.01, 0.3)
         };
         let mut unit = horizon(draws, block, &id, mean, relief);
+        if at > 0 && draws.chance(0.25) {
+            let below = format!("unit-{}", at - 1);
+            let thickness = height * apart * draws.within(0.3, 1.2);
+            let bed = isochore(draws, block, &below, thickness, !with_clinoforms);
+            set(&mut unit, "surface", bed);
+        }
         if with_clinoforms {
             unit.remove("relation");
         }

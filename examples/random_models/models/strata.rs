@@ -108,20 +108,12 @@ pub(super) fn surface(draws: &mut Draws, block: &Block, mean: f64, relief: f64) 
         _ => {
             let field = Field::new(draws, block);
             let count = draws.count(9, 40);
-            let points: Vec<Value> = (0..count)
-                .map(|_| {
-                    let [x, y] = block.at(draws.within(-0.1, 1.1), draws.within(-0.1, 1.1));
-                    let z = mean + relief * field.at(x, y);
-                    [x, y, z].map(|value| rounded(value, 7)).to_vec().into()
-                })
-                .collect();
-            table([
-                ("points", points.into()),
-                (
-                    "tolerance",
-                    rounded(relief * draws.magnitude(0.02, 0.2), 3).into(),
-                ),
-            ])
+            scattered(
+                draws,
+                block,
+                count,
+                (relief, |x, y| mean + relief * field.at(x, y)),
+            )
         }
     }
 }
@@ -133,6 +125,64 @@ pub(super) fn horizon(draws: &mut Draws, block: &Block, id: &str, mean: f64, rel
         set(&mut horizon, "relation", "onlapping");
     }
     horizon
+}
+
+/// A bed above an older horizon, by its thickness; one that may end has none at some nodes of a grid or some points.
+pub(super) fn isochore(
+    draws: &mut Draws,
+    block: &Block,
+    above: &str,
+    mean: f64,
+    may_end: bool,
+) -> Table {
+    let form = draws.count(0, 9);
+    if form < 3 {
+        let thickness = draws.quantity(mean, 0.4);
+        return table([("above", above.into()), ("thickness", thickness)]);
+    }
+    let field = Field::new(draws, block);
+    let swing = draws.within(0.1, 0.8);
+    let ends = may_end && draws.chance(0.4);
+    let thickness = |x: f64, y: f64| {
+        let share = if ends {
+            0.2 + 2.0 * field.at(x, y)
+        } else {
+            1.0 + swing * field.at(x, y)
+        };
+        mean * share.max(0.0)
+    };
+    let measured = if form < 8 {
+        let nodes = [draws.count(2, 9), draws.count(2, 9)];
+        let beyond = draws.pick(&[0.0, 0.0, 0.013, 0.17]);
+        grid(block, nodes, beyond, thickness)
+    } else {
+        let count = draws.count(9, 40);
+        scattered(draws, block, count, (0.2 * mean, thickness))
+    };
+    table([("above", above.into()), ("thickness", measured.into())])
+}
+
+/// Scattered points on a function over the plan with so much relief.
+fn scattered(
+    draws: &mut Draws,
+    block: &Block,
+    count: usize,
+    (relief, height): (f64, impl Fn(f64, f64) -> f64),
+) -> Table {
+    let points: Vec<Value> = (0..count)
+        .map(|_| {
+            let [x, y] = block.at(draws.within(-0.1, 1.1), draws.within(-0.1, 1.1));
+            let place = [x, y, height(x, y)].map(|value| rounded(value, 7));
+            place.to_vec().into()
+        })
+        .collect();
+    table([
+        ("points", points.into()),
+        (
+            "tolerance",
+            rounded(relief * draws.magnitude(0.02, 0.2), 3).into(),
+        ),
+    ])
 }
 
 /// A clinoform set in the unit of a horizon, or in the background.
@@ -173,6 +223,13 @@ pub(super) fn clinoforms(
     if count >= 2 {
         if draws.chance(0.3) {
             set(&mut set_of, "interfingering", "zigzag");
+        }
+        if draws.chance(0.3) {
+            // The greatest least distance stays below the least greatest one.
+            let least = across * draws.magnitude(0.04, 0.2);
+            let most = least * draws.within(1.3, 3.0);
+            let turns: Vec<Value> = vec![draws.quantity(least, 0.1), draws.quantity(most, 0.1)];
+            set(&mut set_of, "turns", turns);
         }
         let belts: Vec<Value> = (0..count)
             .map(|at| {

@@ -167,8 +167,10 @@ fn channel(feature: &mut Table, way: Way) {
 }
 
 fn surface(table: &mut Table, way: Way) {
-    lengths(table, &["level", "tolerance"], way);
+    lengths(table, &["level", "tolerance", "thickness"], way);
     points(table, &["points"], way);
+    // That of a bed may vary over the plan as heights do.
+    within(table, "thickness", |thickness| surface(thickness, way));
     within(table, "dipping", |plane| {
         points(plane, &["through"], way);
         azimuth(plane, way);

@@ -208,8 +208,11 @@ impl Kind for ClinoformsSpec {
         let (Frame::Unit(base), Some(top)) = (site.frame, site.top) else {
             return Err(("no unit", "its base or its top is no horizon".to_owned()));
         };
-        let DrawnSet { sheets, boundaries } =
-            self.draw(site.domain, [base, top], site.nudge, draws)?;
+        let DrawnSet {
+            sheets,
+            boundaries,
+            nowhere,
+        } = self.draw(site.domain, [base, top], site.nudge, draws)?;
         let mut parts = Vec::new();
         let mut firsts = Vec::with_capacity(sheets.len() + 1);
         // Without belts, what lies below the first sheet stays the unit's.
@@ -235,9 +238,13 @@ impl Kind for ClinoformsSpec {
                 from = parts.len() - 1;
             }
         }
+        let decisions = nowhere.map(|place| {
+            format!("has no clinoforms: its unit is nowhere in the domain, since its top is too low; {place}")
+        });
         Ok(Made {
             parts,
             frame: Frame::None,
+            decisions: decisions.into_iter().collect(),
         })
     }
 

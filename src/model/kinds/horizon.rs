@@ -106,6 +106,7 @@ impl Kind for HorizonSpec {
                 ..Part::of(Body::Side(Arc::new(side)))
             }],
             frame: Frame::Unit(surface.clone()),
+            decisions: Vec::new(),
         })
     }
 

@@ -139,6 +139,7 @@ impl Kind for LagSpec {
                 ..Part::of(Body::Trough(lag))
             }],
             frame: Frame::None,
+            decisions: Vec::new(),
         })
     }
 }

@@ -32,6 +32,8 @@ pub(crate) struct Site<'a> {
 pub(crate) struct Made {
     pub(crate) parts: Vec<Part>,
     pub(crate) frame: Frame,
+    /// What was decided about it, to go on after its name.
+    pub(crate) decisions: Vec<String>,
 }
 
 /// By what children are placed in an instance.
@@ -84,6 +86,7 @@ impl Made {
                 ..Part::of(body)
             }],
             frame: Frame::None,
+            decisions: Vec::new(),
         }
     }
 }

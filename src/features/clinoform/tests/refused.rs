@@ -74,7 +74,7 @@ fn numbers_that_make_no_clinoform_are_refused() {
     let (base, top) = (flat().base().clone(), flat().top().clone());
     assert!(matches!(
         ClinoformUnit::new(top, base, LOW, HIGH),
-        Err(FrameError::TopBelowBase(_))
+        Err(FrameError::Nowhere(_))
     ));
     assert!(matches!(
         ClinoformFrame::new(HIGH, LOW, 0.0),

@@ -3,7 +3,7 @@
 use super::{Belt, ClinoformsSpec, Interfingering, MOST_SHEETS, TOE};
 use crate::features::boundary::{BoundaryDesign, FaciesBoundary, Wander};
 use crate::features::clinoform::{Clinoform, ClinoformDesign};
-use crate::features::frame::{ClinoformFrame, ClinoformUnit, Shoreline};
+use crate::features::frame::{ClinoformFrame, ClinoformUnit, FrameError, Shoreline};
 use crate::features::horizon::Horizon;
 use crate::features::side::Side;
 use crate::model::domain::Domain;
@@ -15,6 +15,8 @@ const FLATTEST: f64 = 2.0;
 /// 120 m in the case study of \[J19\].
 const NODES: [f64; 2] = [0.0767, 0.1534];
 
+/// Of a set that is moved landwards by a tiny distance: by which part of it each of its belts is wider.
+const WIDER: f64 = 0.41;
 /// How often the boundaries of belts turn at most.
 const MOST_TURNS: f64 = 1000.0;
 
@@ -43,6 +45,8 @@ pub(super) struct DrawnSet {
     /// By clinothem, from the one below the first sheet to the one above the last: the boundaries between its belts,
     /// landward ones first.
     pub(super) boundaries: Vec<Vec<Drawn<FaciesBoundary>>>,
+    /// Where the top of its unit is not above the base, if that is so everywhere.
+    pub(super) nowhere: Option<String>,
 }
 
 impl ClinoformsSpec {
@@ -56,7 +60,7 @@ impl ClinoformsSpec {
     ) -> Result<DrawnSet, Reason> {
         let spec = self;
         let (low, high) = domain.corners();
-        let wrong = |error: crate::features::frame::FrameError| ("no set", error.to_string());
+        let wrong = |error: FrameError| ("no set", error.to_string());
         let azimuth = draws.quantity(&spec.azimuth_deg, "azimuth_deg")?;
         let shoreline = Shoreline {
             dip: draws.quantity(&spec.shoreline[0], "shoreline.dip")?,
@@ -79,14 +83,26 @@ impl ClinoformsSpec {
             );
             return Err(("toe too flat", message));
         }
+        let unit = match ClinoformUnit::new(base.clone(), top.clone(), low, high) {
+            // All of it was removed, or it never was there: nothing is left to divide.
+            Err(FrameError::Nowhere(place)) => {
+                return Ok(DrawnSet {
+                    sheets: Vec::new(),
+                    boundaries: vec![Vec::new()],
+                    nowhere: Some(place.to_string()),
+                });
+            }
+            unit => unit.map_err(wrong)?,
+        };
         let set = Set {
             spec,
             frame,
             turns,
-            unit: ClinoformUnit::new(base.clone(), top.clone(), low, high).map_err(wrong)?,
+            unit,
             shoreline,
             exponent,
             toe,
+            nudge,
         };
         set.draw(draws)
     }
@@ -126,6 +142,8 @@ struct Set<'a> {
     shoreline: Shoreline,
     exponent: f64,
     toe: f64,
+    /// By how much the set is moved basinwards (m).
+    nudge: f64,
 }
 
 impl Set<'_> {
@@ -174,7 +192,11 @@ impl Set<'_> {
             }
             sheets.push(Drawn { sheet, drawn });
         }
-        Ok(DrawnSet { sheets, boundaries })
+        Ok(DrawnSet {
+            sheets,
+            boundaries,
+            nowhere: None,
+        })
     }
 
     /// The boundaries between the belts of a clinothem, given the sheet that bounds it above.
@@ -186,13 +208,13 @@ impl Set<'_> {
     ) -> Result<Vec<Drawn<FaciesBoundary>>, Reason> {
         let mut distance = 0.0;
         let mut made = Vec::new();
-        for Belt {
-            name,
-            width,
-            interfingering,
-            ..
-        } in &self.spec.belts
-        {
+        for (at, belt) in self.spec.belts.iter().enumerate() {
+            let Belt {
+                name,
+                width,
+                interfingering,
+                ..
+            } = belt;
             let Some(width) = width else { break };
             let before = draws.drawn.len();
             distance += draws.quantity(width, &format!("{name}-{clinothem}.width"))?;
@@ -208,7 +230,8 @@ impl Set<'_> {
                 self.even_nodes()
             };
             let design = BoundaryDesign {
-                distance,
+                // Belts as wide as clinoforms are apart end where the next one begins.
+                distance: distance - WIDER * (at + 1) as f64 * self.nudge,
                 interfingering: range,
                 wander: match self.spec.interfingering {
                     Interfingering::Smooth => Wander::Smooth(nodes),

@@ -80,6 +80,7 @@ fn nodes(model: &Model) -> (Vec<Vec<[f64; 2]>>, f64) {
         },
         exponent: 2.0,
         toe: 0.0,
+        nudge: 0.0,
     };
     let all = (0..200).map(|k| set.nodes(&draws, &format!("near-{k}.wander")));
     (all.collect(), set.frame.reach())

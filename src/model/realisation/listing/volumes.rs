@@ -18,6 +18,8 @@ pub(in crate::model::realisation) struct Volumes {
     pub(in crate::model::realisation) rules: Vec<VolumeRules>,
     /// Their bodies: instance `i` is volume `i + 1`.
     pub(in crate::model::realisation) instances: Vec<Instance>,
+    /// What was decided about them.
+    pub(in crate::model::realisation) decisions: Vec<String>,
 }
 
 impl Volumes {
@@ -35,6 +37,7 @@ impl Volumes {
             volumes: Self {
                 rules: vec![background(model)],
                 instances: Vec::new(),
+                decisions: Vec::new(),
             },
             firsts: Vec::with_capacity(built.len()),
             units: BTreeMap::new(),
@@ -68,6 +71,10 @@ impl Adding<'_> {
         let feature = &self.model.features[due.feature];
         let nature = feature.kind.nature();
         let parts = built.made.parts;
+        let decisions = built.made.decisions.into_iter();
+        self.volumes
+            .decisions
+            .extend(decisions.map(|text| format!("{} {text}", feature.id)));
         self.check_left_out(due, nature, &parts)?;
         let parent = due.parent.map(|parent| self.firsts[parent]);
         let above = self.above.get(&due.feature);
