@@ -507,6 +507,10 @@ impl<'a> Across<'a> {
     /// The parameter from which a place is looked at: where integrals start, or the last knot on the way from there.
     fn base(&self, place: DVec2) -> f64 {
         let (from, to) = (self.from, place[self.axis]);
+        if self.goal.halvings > 0 {
+            // What is halved is right to a share of itself: next to nothing, of what lies beside a knot.
+            return from;
+        }
         let knots = &self.sheet.knots[self.axis];
         let last = if to < from {
             let next = knots.partition_point(|knot| *knot <= to);

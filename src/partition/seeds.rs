@@ -18,6 +18,8 @@ use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 1e-5;
+/// And down to this one where a curve is known, and it is not known that it is alone.
+const MORE: f64 = 1e-3;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -72,7 +74,9 @@ enum Verdict {
     Apart,
     /// All that they have in common.
     Known,
-    /// They may have more in common than a curve that was found, or something where none was.
+    /// They may have more in common than a curve that was found.
+    More,
+    /// They may have something in common, and none was found.
     Doubtful,
     /// Curves in them may be loops, or lie side by side.
     Open,
@@ -162,7 +166,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                     self.doubt(a);
                     return;
                 }
-                Verdict::Doubtful | Verdict::Open => {}
+                Verdict::More if size_a.max(size_b) < MORE * self.pair.tolerances.scale => {
+                    self.doubt(a);
+                    return;
+                }
+                Verdict::More | Verdict::Doubtful | Verdict::Open => {}
             }
         }
         if is_small {
@@ -239,7 +247,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                 self.certain += 1;
                 Verdict::Known
             }
-            _ => Verdict::Doubtful,
+            _ => Verdict::More,
         }
     }
 
