@@ -119,20 +119,3 @@ fn the_younger_of_two_ellipsoids_takes_the_lens_that_they_have_in_common() {
     assert_close(volume(&report, 8), WHOLE);
     assert!(volume(&report, 9) == 0.0);
 }
-
-#[test]
-fn lenses_as_thin_as_a_thousandth_of_their_length_are_cut_by_each_other() {
-    // Their rims turn by a right angle within some 30 µm.
-    let older = ([35.0, 14.0, 0.03], [50.0, 40.0, -10.0], "");
-    for (center, azimuth) in [
-        ([55.0, 42.0, -10.01], 20),
-        ([50.0, 40.0, -10.0], 75),
-        ([48.0, 45.0, -9.98], 160),
-    ] {
-        let turned = format!("azimuth_deg = {azimuth}");
-        let made = report(&[older, ([30.0, 20.0, 0.025], center, &turned)]);
-        assert_eq!(made["assembly"]["engine"], "partition");
-        assert_eq!(made["assembly"]["remedy"], "none");
-        assert_close(volume(&made, 1), 4.0 / 3.0 * PI * 30.0 * 20.0 * 0.025);
-    }
-}

@@ -41,7 +41,7 @@ pub enum Party {
         /// Its name.
         name: String,
         /// What it is.
-        nature: Option<Nature>,
+        nature: Option<&'static Nature>,
     },
     /// A face of the domain: its west, east, south or north wall, its base or top.
     Domain(&'static str),
@@ -117,7 +117,7 @@ impl Contact {
 
 impl Party {
     /// What it is, if it is a body.
-    fn nature(&self) -> Option<Nature> {
+    fn nature(&self) -> Option<&'static Nature> {
         match self {
             Self::Body { nature, .. } => *nature,
             Self::Domain(_) => None,
@@ -255,7 +255,7 @@ pub(super) fn search(plan: &AssemblyPlan, owners: &Owners, volumes: &[usize]) ->
         };
         let natures = parties.each_ref().map(Party::nature);
         let is_base = natures.map(|one| one.is_some_and(|one| one.is_base));
-        let is_many = natures.map(|one| one.is_some_and(|one| one.is_many()));
+        let is_many = natures.map(|one| one.is_some_and(Nature::is_many));
         // The sheets of a set meet where they are meant to, and so they meet the base and the top of their unit.
         let is_meant = match (is_base, is_many) {
             (_, [true, true]) => true,

@@ -33,6 +33,7 @@ use measure::Measured;
 pub use options::{Engine, Options};
 use partitioned::Partitioned;
 use proof::{Evidence, Proof};
+use worker::WorkerError;
 
 /// What is going on, for progress bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -35,7 +35,7 @@ pub struct AssemblyPlan {
     /// The volumes' names, for messages.
     pub names: Vec<String>,
     /// What they are; none of the background.
-    pub natures: Vec<Option<Nature>>,
+    pub natures: Vec<Option<&'static Nature>>,
     /// The shells, each once.
     pub shells: Vec<PlannedShell>,
     /// Elevations at which bodies end under a lid inside the domain.
@@ -127,7 +127,7 @@ impl AssemblyPlan {
             natures: realisation
                 .volumes
                 .iter()
-                .map(|volume| kinds::named(&volume.kind).map(|kind| kind.nature))
+                .map(|volume| kinds::named(&volume.kind).map(|kind| &kind.nature))
                 .collect(),
             shells: Vec::new(),
             lids: Vec::new(),

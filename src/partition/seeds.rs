@@ -18,8 +18,6 @@ use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 1e-5;
-/// And down to this one where a curve is known, and it is not known that it is alone.
-const MORE: f64 = 1e-3;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -74,9 +72,7 @@ enum Verdict {
     Apart,
     /// All that they have in common.
     Known,
-    /// They may have more in common than a curve that was found.
-    More,
-    /// They may have something in common, and none was found.
+    /// They may have more in common than a curve that was found, or something where none was.
     Doubtful,
     /// Curves in them may be loops, or lie side by side.
     Open,
@@ -157,20 +153,14 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
         let is_flat = a.lean() < FLAT && b.lean() < FLAT;
-        // A curve that passes beside the smallest patches passes through what is around them.
-        let beside = if is_small { BESIDE } else { BORDER };
         if is_flat {
-            match self.flat(a, b, beside) {
+            match self.flat(a, b, is_small) {
                 Verdict::Apart | Verdict::Known => return,
                 Verdict::Doubtful if is_small => {
                     self.doubt(a);
                     return;
                 }
-                Verdict::More if size_a.max(size_b) < MORE * self.pair.tolerances.scale => {
-                    self.doubt(a);
-                    return;
-                }
-                Verdict::More | Verdict::Doubtful | Verdict::Open => {}
+                Verdict::Doubtful | Verdict::Open => {}
             }
         }
         if is_small {
@@ -212,7 +202,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// What is known of two nearly flat patches.
-    fn flat(&mut self, a: &Facet<'_>, b: &Facet<'_>, beside: f64) -> Verdict {
+    fn flat(&mut self, a: &Facet<'_>, b: &Facet<'_>, is_small: bool) -> Verdict {
+        // A curve that passes beside the smallest patches passes through what is around them.
+        let beside = if is_small { BESIDE } else { BORDER };
         let guess = linear::guess(&a.patch, &b.patch, BESIDE);
         if let Guess::Apart(along) = guess {
             // Where boxes and slabs overlap they may still be apart another way.
@@ -234,10 +226,16 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             Guess::Meet(..) => self.locate(a, b, &guess),
             _ => None,
         };
-        let Some(place) = place else {
-            return Verdict::Doubtful;
-        };
         let by_slopes = || Chords::of_slopes(frame.as_ref()?, a, b, beside);
+        let Some(place) = place else {
+            // The halves of others are asked in any case.
+            let may_touch = is_small && by_cones.is_none() && by_slopes().is_none();
+            return if may_touch {
+                Verdict::Open
+            } else {
+                Verdict::Doubtful
+            };
+        };
         let Some(chords) = by_cones.or_else(by_slopes) else {
             return Verdict::Open;
         };
@@ -247,7 +245,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                 self.certain += 1;
                 Verdict::Known
             }
-            _ => Verdict::More,
+            _ => Verdict::Doubtful,
         }
     }
 

@@ -8,21 +8,40 @@ use super::tree::Tree;
 
 /// Circles that are known, by the files that may be in them. They may only become smaller.
 const KNOWN: &[&[&str]] = &[
-    &[
-        "model/check/clinoforms.rs",
-        "model/check/family.rs",
-        "model/check/feature.rs",
-        "model/check/rock.rs",
-        "model/check/surface.rs",
-    ],
+    &["features/body.rs", "features/side.rs"],
+    &["model/check/family.rs", "model/check/feature.rs"],
     &["model/deserialize.rs", "model/read.rs"],
-    &["model/draws/mod.rs", "model/draws/trajectory.rs"],
+    &[
+        "model/domain.rs",
+        "model/draws.rs",
+        "model/values/surface/draw.rs",
+        "model/values/surface/mod.rs",
+    ],
+    &["model/draft.rs", "model/values/selector.rs"],
     &["model/expression.rs", "model/formula.rs"],
-    &["model/file.rs", "model/schema.rs"],
+    // The list of kinds has the trait that they all are.
+    &[
+        "model/kinds/channel.rs",
+        "model/kinds/clinoforms.rs",
+        "model/kinds/clinoforms/draw.rs",
+        "model/kinds/ellipsoid.rs",
+        "model/kinds/horizon.rs",
+        "model/kinds/lag.rs",
+        "model/kinds/mod.rs",
+    ],
     &[
         "model/realisation.rs",
+        "model/realisation/apart.rs",
         "model/realisation/listing.rs",
         "model/realisation/listing/coincidence.rs",
+        "model/realisation/listing/volumes.rs",
+        "model/realisation/making.rs",
+    ],
+    &[
+        "model/realisation/listing/coincidence/change.rs",
+        "model/realisation/listing/coincidence/contact.rs",
+        "model/realisation/listing/coincidence/deciding.rs",
+        "model/realisation/listing/coincidence/points.rs",
     ],
     &["model/rules.rs", "model/rules/meeting.rs"],
     &[
