@@ -27,12 +27,16 @@ pub enum Role {
     Clinoform,
     /// Where one facies belt passes into the next.
     FaciesBoundary,
+    /// Where the inner bank of a river once was.
+    Accretion,
+    /// Closes a shell outside of what the body lies in.
+    Hidden,
 }
 
 impl Role {
     /// Whether the sheet is a surface of the rock, not only the end of a shell.
     pub fn is_geological(self) -> bool {
-        !matches!(self, Self::Start | Self::End)
+        !matches!(self, Self::Start | Self::End | Self::Hidden)
     }
 
     /// The role's name in files and reports.
@@ -46,6 +50,8 @@ impl Role {
             Self::Horizon => "horizon",
             Self::Clinoform => "clinoform",
             Self::FaciesBoundary => "facies-boundary",
+            Self::Accretion => "accretion-surface",
+            Self::Hidden => "hidden",
         }
     }
 }

@@ -93,11 +93,7 @@ impl ChannelDesign {
 
     fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
         let section = self.section(fraction);
-        let origin = match self.origin {
-            Origin::TopCentre => 0.0,
-            Origin::Thalweg => section.asymmetry * section.width,
-        };
-        let shift = DVec2::new(-origin, self.top.at(fraction));
+        let shift = self.offset(fraction);
         let points = section
             .control_points()?
             .iter()
@@ -109,7 +105,17 @@ impl ChannelDesign {
         })
     }
 
-    fn is_constant(&self) -> bool {
+    /// Where the middle between the rims is at a fraction of the length: x to the right of the trajectory, y = elevation (m).
+    pub(super) fn offset(&self, fraction: f64) -> DVec2 {
+        let origin = match self.origin {
+            Origin::TopCentre => 0.0,
+            Origin::Thalweg => self.asymmetry.at(fraction) * self.width.at(fraction),
+        };
+        DVec2::new(-origin, self.top.at(fraction))
+    }
+
+    /// Whether its section is the same all along.
+    pub(super) fn is_constant(&self) -> bool {
         [&self.width, &self.depth, &self.asymmetry, &self.top]
             .into_iter()
             .chain(self.left_angle.iter())

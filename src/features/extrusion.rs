@@ -97,6 +97,26 @@ pub struct Limits {
     pub constant: bool,
 }
 
+/// Which rows of control points are compared with the template between sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Guides {
+    /// The two outer ones and the middle one: rims and thalweg.
+    Outline,
+    /// Every one.
+    All,
+}
+
+/// Rows of control points, one for each of the template's, with the knots that they share.
+#[derive(Clone, Debug)]
+pub(super) struct Carried {
+    /// The knots along.
+    pub along: KnotVector,
+    /// A row along the trajectory for every control point of the template.
+    pub rows: Vec<Vec<DVec3>>,
+    /// The v of the sections.
+    pub sections: Vec<f64>,
+}
+
 /// Carries a template along a trajectory.
 ///
 /// `section` gives the template at a fraction 0..1 of the length; every call must return the same
@@ -108,12 +128,33 @@ pub fn extrude<E: std::error::Error>(
     limits: Limits,
     section: &dyn Fn(f64) -> Result<PlacedSection, E>,
 ) -> Result<(Surface, Vec<f64>), ExtrusionError<E>> {
+    let carried = carry(trajectory, limits, &[], Guides::Outline, section)?;
+    let across = KnotVector::uniform(degree, carried.rows.len())
+        .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
+    let surface = Surface::new(across, carried.along, carried.rows.concat())
+        .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
+    Ok((surface, carried.sections))
+}
+
+/// The rows of control points of whatever is carried along a trajectory, with sections at given fractions of its length
+/// besides those that are needed.
+pub(super) fn carry<E: std::error::Error>(
+    trajectory: &Trajectory,
+    limits: Limits,
+    at: &[f64],
+    guides: Guides,
+    section: &dyn Fn(f64) -> Result<PlacedSection, E>,
+) -> Result<Carried, ExtrusionError<E>> {
     let builder = Builder {
         trajectory,
         section,
+        guides,
     };
     builder.check_room()?;
     let mut stations = trajectory.stations(limits.angle);
+    for fraction in at {
+        include(&mut stations, fraction * trajectory.length());
+    }
     if !(limits.constant && trajectory.is_straight()) {
         thicken(&mut stations);
     }
@@ -121,12 +162,13 @@ pub fn extrude<E: std::error::Error>(
         let (along, rows) = builder.rows(&stations)?;
         let refined = builder.refine(&stations, &along, &rows)?;
         if refined.len() == stations.len() {
-            let across = KnotVector::uniform(degree, rows.len())
-                .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
             builder.check_folds(&along, &rows)?;
-            let surface = Surface::new(across, along, rows.concat())
-                .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
-            return Ok((surface, builder.parameters(&stations)));
+            let sections = builder.parameters(&stations);
+            return Ok(Carried {
+                along,
+                rows,
+                sections,
+            });
         }
         stations = refined;
         if stations.len() > MOST_SECTIONS {
@@ -134,6 +176,22 @@ pub fn extrude<E: std::error::Error>(
         }
     }
     Err(ExtrusionError::TooManySections(stations.len()))
+}
+
+/// Of a station that is asked for: how near another one is replaced by it, as a fraction of the mean spacing.
+const SLIVER: f64 = 0.05;
+
+/// Puts a station among the others, in place of an inner one that is nearly there.
+fn include(stations: &mut Vec<f64>, s: f64) {
+    let last = stations.len() - 1;
+    let near = SLIVER * stations[last] / last as f64;
+    if !(s > 0.0 && s < stations[last]) {
+        return;
+    }
+    let ends = [stations[0], stations[last]];
+    stations.retain(|one| ends.contains(one) || (one - s).abs() > near);
+    let at = stations.partition_point(|one| *one < s);
+    stations.insert(at, s);
 }
 
 /// Fewer than four sections cannot carry a cubic: halve the spans until there are enough.
@@ -158,6 +216,7 @@ fn halved(stations: &[f64], chosen: impl Fn(usize) -> bool) -> Vec<f64> {
 struct Builder<'a, E: std::error::Error> {
     trajectory: &'a Trajectory,
     section: &'a dyn Fn(f64) -> Result<PlacedSection, E>,
+    guides: Guides,
 }
 
 impl<E: std::error::Error> Builder<'_, E> {
@@ -188,14 +247,17 @@ impl<E: std::error::Error> Builder<'_, E> {
             .map_err(|error| ExtrusionError::Interpolation(error.to_string()))
     }
 
-    /// Stations with new ones where the middle and the outer rows leave the template.
+    /// Stations with new ones where the guides leave the template.
     fn refine(
         &self,
         stations: &[f64],
         along: &KnotVector,
         rows: &[Vec<DVec3>],
     ) -> Result<Vec<f64>, ExtrusionError<E>> {
-        let guides = [0, rows.len() / 2, rows.len() - 1];
+        let guides = match self.guides {
+            Guides::Outline => vec![0, rows.len() / 2, rows.len() - 1],
+            Guides::All => (0..rows.len()).collect(),
+        };
         let curves = guides
             .iter()
             .map(|&row| Curve::new(along.clone(), rows[row].clone()))
@@ -338,6 +400,6 @@ impl<E: std::error::Error> Builder<'_, E> {
 }
 
 /// A section's point in space: upright, perpendicular to the trajectory.
-fn stand(place: &Place, point: DVec2) -> DVec3 {
+pub(super) fn stand(place: &Place, point: DVec2) -> DVec3 {
     (place.point + place.right() * point.x).extend(point.y)
 }

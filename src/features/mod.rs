@@ -3,6 +3,7 @@
 //! This layer knows numbers, not model files: every parameter is sampled already. It knows no rules
 //! either: what removes what is decided in [`crate::model`].
 
+pub mod bends;
 pub mod body;
 pub mod boundary;
 pub mod channel;
@@ -12,10 +13,13 @@ pub mod extent;
 pub mod extrusion;
 pub mod frame;
 pub mod horizon;
+pub mod lag;
 pub mod meander;
 pub mod pinch_out;
 pub mod profile;
+pub mod reach;
 pub mod section;
+pub mod shell;
 pub mod side;
 pub mod thickness;
 pub mod trajectory;
