@@ -16,6 +16,7 @@ pub mod horizon;
 pub mod lag;
 pub mod meander;
 pub mod pinch_out;
+pub mod plug;
 pub mod profile;
 pub mod reach;
 pub mod section;
