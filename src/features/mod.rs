@@ -20,6 +20,7 @@ pub mod plug;
 pub mod point_bars;
 pub mod profile;
 pub mod reach;
+pub mod scour;
 pub mod section;
 pub mod shell;
 pub mod side;
