@@ -14,6 +14,7 @@ pub mod extrusion;
 pub mod frame;
 pub mod horizon;
 pub mod lag;
+pub mod levee;
 pub mod meander;
 pub mod pinch_out;
 pub mod plug;
