@@ -13,6 +13,7 @@ pub mod extent;
 pub mod extrusion;
 pub mod frame;
 pub mod horizon;
+pub mod join;
 pub mod lag;
 pub mod levee;
 pub mod lobe;
