@@ -8,6 +8,7 @@ pub mod body;
 pub mod boundary;
 pub mod channel;
 pub mod clinoform;
+pub mod conform;
 pub mod ellipsoid;
 pub mod extent;
 pub mod extrusion;
