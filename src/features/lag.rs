@@ -33,7 +33,7 @@ const CLEARANCE: f64 = 0.1;
 const FLOOR: f64 = 1.3;
 /// By how much hidden sheets of lags in one channel are apart, in depths and widths.
 const STAGGER: f64 = 0.02;
-/// How far its ends go on beyond the channel's, in widths.
+/// How far its ends go on beyond the channel's, in widths: no other feature's ends are there.
 const OVERSHOOT: f64 = 0.1;
 
 /// A lag's parameters, sampled.
@@ -112,8 +112,10 @@ impl LagDesign {
             reach.sheets(&part, &across, &template)
         };
         let sheets = sheets.map_err(Box::new)?;
+        // The ends of two lags must not coincide either.
+        let overshoot = OVERSHOOT + STAGGER * self.order as f64;
         let beyond =
-            |fraction: f64| OVERSHOOT * reach.station(fraction).width / reach.trajectory().length();
+            |fraction: f64| overshoot * reach.station(fraction).width / reach.trajectory().length();
         let tube = Tube {
             sheets,
             roles: [Role::Top, Role::Hidden],

@@ -48,6 +48,8 @@ const MOST_OF_RADIUS: f64 = 0.8;
 const NARROWEST: f64 = 0.05;
 /// How far the bodies of neighbouring bends overlap, in the channel's widths.
 const OVERLAP: f64 = 0.5;
+/// How far ends go on beyond the channel's, in the channel's widths.
+const OVERSHOOT: f64 = 0.0923;
 /// Places at which the width is looked at.
 const CHECKS: usize = 64;
 /// Pieces of the channel's section among which the one over the levee's root is looked for.
@@ -229,7 +231,7 @@ impl LeveeDesign {
         let beyond = |is_end: bool, end: f64| {
             let width = reach.station(end).width;
             if is_end {
-                ROOT * width / of_reach.length()
+                OVERSHOOT * width / of_reach.length()
             } else {
                 0.0
             }

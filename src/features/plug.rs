@@ -20,7 +20,7 @@ pub const DEEPEST: f64 = 0.95;
 /// How far above the channel's top the base ends, at an end of a bend, as a fraction of the plug's depth.
 const ABOVE: f64 = 0.05;
 /// How far ends go on beyond the channel's, in widths.
-const OVERSHOOT: f64 = 0.1;
+const OVERSHOOT: f64 = 0.0871;
 
 /// Which part of a channel was abandoned.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -40,7 +40,7 @@ fn a_plug_has_its_fractions_of_the_channels_section() {
     assert!([low, high].iter().all(|u| base.point(*u, 0.3).z > -4.8));
     // Ends are beyond the channel's.
     let (low, high) = plug.bounds();
-    assert!(low.x < -4.9 && high.x > 404.9);
+    assert!(low.x < -4.3 && high.x > 404.3);
 }
 
 #[test]

@@ -50,7 +50,7 @@ const DRAPED: f64 = 2.0 / 3.0;
 /// Of a sigmoidal sheet: the steepest gradient by the mean one, and the gradient at its ends.
 const SIGMOID: [f64; 2] = [1.5, 0.3];
 /// How far ends go on where the trajectory ends within a bend, in widths.
-const OVERSHOOT: f64 = 0.1;
+const OVERSHOOT: f64 = 0.1137;
 /// Places along a bend at which the order of sheets is checked.
 const CHECKS: usize = 200;
 

@@ -1,7 +1,7 @@
 //! Crevasse splays: lobes whose axis starts at a breach of a channel's bank.
 //!
-//! A splay's upstream end is inside the channel, which is younger and takes what lies there; its base is a little below the
-//! channel's top, where the flood began to erode.
+//! A splay's upstream end is inside the channel, which is younger and takes what lies there below its own top; its base is a
+//! little below that top, where the flood began to erode. What it has above that top stays, over the channel too.
 
 use super::levee::Bank;
 use super::lobe::LobeDesign;
