@@ -23,7 +23,7 @@ use super::trajectory::{Place, azimuth_vector};
 use crate::nurbs::{KnotError, KnotVector, Surface, SurfaceError};
 
 /// Greatest taper and skew.
-const MOST: f64 = 0.9;
+pub const MOST: f64 = 0.9;
 /// A mouth bar's length and width in the channel's widths, its taper and its skew.
 const MOUTH_BAR: [f64; 4] = [5.0, 3.2, 0.5, 0.3];
 /// How far a base is sunk below what it lies on, as a fraction of the thickness: so that it does not coincide with it.

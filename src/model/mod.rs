@@ -56,6 +56,7 @@ pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
 pub use kinds::made::Bound;
+pub use kinds::plug::{PlugPlace, PlugSpec};
 pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};
 pub use schema::schema;

@@ -14,6 +14,7 @@ mod ellipsoids;
 mod files;
 mod lags;
 mod overrides;
+mod plugs;
 mod shorefaces;
 
 use clinothem::model::{Defects, Format, Model, Source};

@@ -121,9 +121,7 @@ impl Kind for LagSpec {
     }
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
-        let Frame::Along(reach) = site.frame else {
-            return Err(("no channel", "its parent is no channel".to_owned()));
-        };
+        let reach = site.reach()?;
         let design = LagDesign {
             thickness: draws.profile(&self.thickness_fraction, "thickness_fraction")?,
             sag: draws.profile(&self.sag_fraction, "sag_fraction")?,
