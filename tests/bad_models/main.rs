@@ -15,6 +15,7 @@ mod files;
 mod lags;
 mod overrides;
 mod plugs;
+mod point_bars;
 mod shorefaces;
 
 use clinothem::model::{Defects, Format, Model, Source};

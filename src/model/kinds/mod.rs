@@ -13,6 +13,7 @@ pub(crate) mod keys;
 pub(crate) mod lag;
 pub(crate) mod made;
 pub(crate) mod plug;
+pub(crate) mod point_bars;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -28,6 +29,7 @@ use keys::Keys;
 use lag::LagSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use plug::PlugSpec;
+use point_bars::PointBarsSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -182,6 +184,8 @@ kinds! {
     Lag(LagSpec),
     /// What fills an abandoned channel.
     Plug(PlugSpec),
+    /// Packages between lateral-accretion surfaces at the inner bends of a channel.
+    PointBars(PointBarsSpec),
 }
 
 impl FeatureKind {
