@@ -77,19 +77,16 @@ impl Shell {
         self.inside.contains(point)
     }
 
-    /// See [`super::body::Body::nudged`]: longer and flatter, and moved. Its top sinks too, though less: a level one comes away from
-    /// what it lies on. One affine map for all of it, so that sheets still join, whatever their degrees and weights.
+    /// See [`super::body::Body::nudged`]: stretched about its own box, and moved. One affine map for all of it, so that sheets still
+    /// join, whatever their degrees and weights.
     pub(super) fn nudged(&self, nudge: &Nudge) -> Result<Self, ShellError> {
-        /// How far the top sinks, as a part of the lowest point's rise.
-        const SINKS: f64 = 0.618_033_988_749_895;
         let (low, high) = self.bounds();
         let (middle, size) = (0.5 * (low + high).xy(), high - low);
         let longer = 2.0 * nudge.reach / size.xy().max_element();
+        let flatter = nudge.rise / size.z;
         let moved = |p: &DVec3| {
             let at = p.xy() + longer * (p.xy() - middle);
-            let height = (p.z - low.z) / size.z;
-            let rise = nudge.rise * (1.0 - height - SINKS * height);
-            at.extend(p.z + rise) + nudge.shift
+            at.extend(p.z + flatter * (high.z - p.z)) + nudge.shift
         };
         let sheets = self
             .sheets

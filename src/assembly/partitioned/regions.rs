@@ -91,10 +91,7 @@ fn region(
     let surfaces = match &shell.body {
         Body::Trough(trough) => only(near(trough)?, None),
         Body::Ellipsoid(ellipsoid) => wedges(ellipsoid.skin())?,
-        Body::Shell(shell) => {
-            let sheets = shell.sheets().iter().map(|sheet| sectors(&sheet.1));
-            sheets.collect::<Result<Vec<_>, _>>()?.concat()
-        }
+        Body::Shell(shell) => only(shell.sheets().to_vec(), None),
         Body::Side(side) => {
             return Ok(match side.level() {
                 Some(level) => Region::Above(level),
@@ -138,26 +135,4 @@ fn wedges(skin: &nurbs::Surface) -> Result<Vec<nurbs::Surface>, TroughError> {
     }
     wedges.push(rest);
     Ok(wedges)
-}
-
-/// A sheet of a shell; one that goes around a pole is cut at its spokes, so that no face has a seam.
-fn sectors(sheet: &nurbs::Surface) -> Result<Vec<nurbs::Surface>, TroughError> {
-    let columns = sheet.knots_v().count();
-    let has_seam = sheet
-        .net()
-        .chunks(columns)
-        .all(|row| row[0] == row[columns - 1]);
-    if !has_seam {
-        return Ok(vec![sheet.clone()]);
-    }
-    let knots = sheet.knots_v().distinct();
-    let mut rest = sheet.clone();
-    let mut sectors = Vec::with_capacity(knots.len() - 1);
-    for (knot, _) in &knots[1..knots.len() - 1] {
-        let (sector, after) = rest.split_v(*knot)?;
-        sectors.push(sector);
-        rest = after;
-    }
-    sectors.push(rest);
-    Ok(sectors)
 }
