@@ -114,6 +114,7 @@ fn list_of(value: &Value) -> String {
     match kind_of(&value["items"]).as_str() {
         "quantity" => format!("{many} quantities"),
         "number" => format!("{many} numbers"),
+        "text" => format!("{many} names"),
         _ => "list of tables".to_owned(),
     }
 }
@@ -167,6 +168,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
     };
     match place {
         "a belt" => defined("Belt"),
+        "a drape" => defined("Drape"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

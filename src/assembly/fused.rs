@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::closed;
 use super::failure::{AssemblyError, Failed};
+use super::joined::{self, JoinedError};
 use super::kernel::{self, Bound, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids, Topology};
 use super::options::{Engine, Options};
 use super::shapes::{self, Cut};
@@ -13,6 +14,15 @@ use super::sides::{self, SideError};
 use super::worker::{self, WorkerError};
 use crate::features::body::Body;
 use crate::model::plan::{AssemblyPlan, PlannedBody, PlannedShell};
+
+/// Why a body is no shell for the kernel.
+#[derive(Debug, thiserror::Error)]
+enum ShellError {
+    #[error(transparent)]
+    Side(#[from] SideError),
+    #[error(transparent)]
+    Joined(#[from] JoinedError),
+}
 
 /// One rung of the ladder.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +155,7 @@ fn fuse(
 }
 
 /// The plan as the kernel's job, with one remedy's way of cutting.
-fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> Result<FuseJob, SideError> {
+fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> Result<FuseJob, ShellError> {
     let with_lids = remedy.tops == Tops::Lids;
     let block = [plan.low(), plan.high()];
     let mut shells = Vec::with_capacity(plan.shells.len());
@@ -195,10 +205,11 @@ fn topology(
     place: usize,
     block: [DVec3; 2],
     remedy: &Remedy,
-) -> Result<Topology, SideError> {
+) -> Result<Topology, ShellError> {
     let cut = remedy.cut;
     Ok(match (&shell.body, &shell.flush) {
         (Body::Side(side), _) => sides::shell(side, block, place)?,
+        (Body::Shell(shell), _) => joined::shell(shell)?,
         (Body::Ellipsoid(ellipsoid), _) => closed::shell(ellipsoid.skin(), cut.segments),
         (Body::Trough(_), Some(flush)) if remedy.tops == Tops::Lids => {
             shapes::trough(&flush.raised, block, cut, None)
@@ -221,7 +232,7 @@ pub(super) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, Shape)>, String>
         let shape = match &shell.body {
             Body::Side(side) if side.sheets().is_empty() => continue,
             side @ Body::Side(_) => faces(side)?,
-            Body::Trough(_) | Body::Ellipsoid(_) => {
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => {
                 let topology = topology(shell, body.shell, block, &LADDER[0])
                     .map_err(|error| error.to_string())?;
                 kernel::solid(&topology).map_err(|error| {

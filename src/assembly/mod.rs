@@ -10,6 +10,7 @@ mod closed;
 pub mod contacts;
 mod failure;
 mod fused;
+mod joined;
 pub(crate) mod kernel;
 mod labels;
 pub mod measure;

@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3Swizzles};
 
 use super::ellipsoid::Ellipsoid;
 pub use super::nudge::Nudge;
+use super::shell::{Shell, ShellError};
 use super::side::{Side, points_bounds};
 use crate::nurbs::{Curve, KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
@@ -24,12 +25,16 @@ pub enum Role {
     Skin,
     /// An open sheet, which divides; by its name.
     Open(&'static str),
+    /// Where the inner bank of a river once was.
+    Accretion,
+    /// Closes a shell outside of what the body lies in.
+    Hidden,
 }
 
 impl Role {
     /// Whether the sheet is a surface of the rock, not only the end of a shell.
     pub fn is_geological(self) -> bool {
-        !matches!(self, Self::Start | Self::End)
+        !matches!(self, Self::Start | Self::End | Self::Hidden)
     }
 
     /// The role's name in files and reports.
@@ -41,6 +46,8 @@ impl Role {
             Self::End => "end",
             Self::Skin => "skin",
             Self::Open(name) => name,
+            Self::Accretion => "accretion-surface",
+            Self::Hidden => "hidden",
         }
     }
 }
@@ -52,6 +59,8 @@ pub enum Body {
     Trough(Trough),
     /// An ellipsoid.
     Ellipsoid(Ellipsoid),
+    /// Any sheets that close.
+    Shell(Shell),
     /// What lies on the younger side of open sheets.
     Side(Arc<Side>),
 }
@@ -62,6 +71,7 @@ impl Body {
         match self {
             Self::Trough(trough) => trough.sheets(),
             Self::Ellipsoid(ellipsoid) => Ok(vec![(Role::Skin, ellipsoid.skin().clone())]),
+            Self::Shell(shell) => Ok(shell.sheets().to_vec()),
             Self::Side(side) => {
                 let role = side.role();
                 Ok(side.sheets().iter().map(|s| (role, s.clone())).collect())
@@ -69,12 +79,13 @@ impl Body {
         }
     }
 
-    /// The corners of a box that holds the body: that of a trough's control net, and for an ellipsoid
+    /// The corners of a box that holds the body: that of a trough's or a shell's control net, and for an ellipsoid
     /// the smallest one. A side reaches to infinity.
     pub fn bounds(&self) -> (DVec3, DVec3) {
         match self {
             Self::Trough(trough) => points_bounds(trough.base.net()),
             Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
+            Self::Shell(shell) => shell.bounds(),
             Self::Side(side) => {
                 let least = side
                     .heights()
@@ -96,23 +107,24 @@ impl Body {
     pub fn level_top(&self, tolerance: f64) -> Option<f64> {
         match self {
             Self::Trough(trough) => trough.level_top(tolerance),
-            Self::Ellipsoid(_) | Self::Side(_) => None,
+            Self::Ellipsoid(_) | Self::Shell(_) | Self::Side(_) => None,
         }
     }
 }
 
 impl Body {
     /// The body a little shallower, longer and elsewhere; sides stay as they are.
-    pub fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
+    pub fn nudged(&self, nudge: &Nudge) -> Result<Self, ShellError> {
         Ok(match self {
             Self::Trough(trough) => Self::Trough(trough.nudged(nudge)?),
             Self::Ellipsoid(ellipsoid) => Self::Ellipsoid(ellipsoid.nudged(nudge)?),
+            Self::Shell(shell) => Self::Shell(shell.nudged(nudge)?),
             Self::Side(side) => Self::Side(Arc::clone(side)),
         })
     }
 }
 
-/// A trough: a base with u across and v along, closed by a top between its two rims, most often a ruled one.
+/// A trough: a base with u across and v along, closed by a ruled top between its two rims.
 ///
 /// The rims (u = first and last) are the *same* control points in both sheets, so that base and top
 /// share their edges exactly (\[J19\] Fig. 4: CP2 of the top is CP7 of the base). The two ends are
@@ -136,9 +148,6 @@ pub enum TroughError {
     /// A part's end is no place between its ends.
     #[error(transparent)]
     Part(#[from] RefineError),
-    /// Base and top do not share their rims.
-    #[error("its base and its top have different rims")]
-    Rims,
 }
 
 /// Of a raised bank: its height, in steps from the rim's neighbour to the rim.
@@ -152,23 +161,6 @@ impl Trough {
     pub fn new(base: Surface, sections: Vec<f64>) -> Result<Self, SurfaceError> {
         let (first, last) = base.knots_u().domain();
         let top = Surface::ruled(&base.isocurve_u(first), &base.isocurve_u(last))?;
-        Ok(Self {
-            base,
-            top,
-            sections,
-        })
-    }
-
-    /// Closes a base by a top of its own, with the same v and the same control points at its rims.
-    pub fn under(base: Surface, top: Surface, sections: Vec<f64>) -> Result<Self, TroughError> {
-        let rows = |sheet: &Surface| {
-            let (rows, columns) = (sheet.knots_u().count(), sheet.knots_v().count());
-            let row = |at: usize| sheet.net()[at * columns..(at + 1) * columns].to_vec();
-            [row(0), row(rows - 1)]
-        };
-        if base.knots_v() != top.knots_v() || rows(&base) != rows(&top) {
-            return Err(TroughError::Rims);
-        }
         Ok(Self {
             base,
             top,

@@ -92,13 +92,9 @@ impl ChannelDesign {
     }
 
     /// The section at a fraction of the length, placed: x to the right of the trajectory, y = elevation.
-    pub(super) fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
+    fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
         let section = self.section(fraction);
-        let origin = match self.origin {
-            Origin::TopCentre => 0.0,
-            Origin::Thalweg => section.asymmetry * section.width,
-        };
-        let shift = DVec2::new(-origin, self.top.at(fraction));
+        let shift = self.offset(fraction);
         let points = section
             .control_points()?
             .iter()
@@ -110,7 +106,16 @@ impl ChannelDesign {
         })
     }
 
-    /// Whether the section is the same all along.
+    /// Where the middle between the rims is at a fraction of the length: x to the right of the trajectory, y = elevation (m).
+    pub(super) fn offset(&self, fraction: f64) -> DVec2 {
+        let origin = match self.origin {
+            Origin::TopCentre => 0.0,
+            Origin::Thalweg => self.asymmetry.at(fraction) * self.width.at(fraction),
+        };
+        DVec2::new(-origin, self.top.at(fraction))
+    }
+
+    /// Whether its section is the same all along.
     pub(super) fn is_constant(&self) -> bool {
         [&self.width, &self.depth, &self.asymmetry, &self.top]
             .into_iter()

@@ -97,14 +97,23 @@ pub struct Limits {
     pub constant: bool,
 }
 
-/// Rows of control points that were carried along a trajectory.
+/// Which rows of control points are compared with the template between sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Guides {
+    /// The two outer ones and the middle one: rims and thalweg.
+    Outline,
+    /// Every one.
+    All,
+}
+
+/// Rows of control points, one for each of the template's, with the knots that they share.
 #[derive(Clone, Debug)]
-pub struct Carried {
-    /// The knots of all rows, along the trajectory.
+pub(super) struct Carried {
+    /// The knots along.
     pub along: KnotVector,
-    /// The rows, in the order of the template's points.
+    /// A row along the trajectory for every control point of the template.
     pub rows: Vec<Vec<DVec3>>,
-    /// The v of the sections: there, and only there, the rows are exactly the template's points.
+    /// The v of the sections.
     pub sections: Vec<f64>,
 }
 
@@ -119,9 +128,7 @@ pub fn extrude<E: std::error::Error>(
     limits: Limits,
     section: &dyn Fn(f64) -> Result<PlacedSection, E>,
 ) -> Result<(Surface, Vec<f64>), ExtrusionError<E>> {
-    let first = section(0.0).map_err(|error| ExtrusionError::Section(error, 0.0))?;
-    let count = first.points.len();
-    let carried = carry(trajectory, limits, &[0, count / 2, count - 1], section)?;
+    let carried = carry(trajectory, limits, &[], Guides::Outline, section)?;
     let across = KnotVector::uniform(degree, carried.rows.len())
         .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
     let surface = Surface::new(across, carried.along, carried.rows.concat())
@@ -129,21 +136,25 @@ pub fn extrude<E: std::error::Error>(
     Ok((surface, carried.sections))
 }
 
-/// Carries the points of a template along a trajectory, as rows of control points; those of the rows in `guides` keep to the
-/// template within its tolerance.
-pub fn carry<E: std::error::Error>(
+/// The rows of control points of whatever is carried along a trajectory, with sections at given fractions of its length
+/// besides those that are needed.
+pub(super) fn carry<E: std::error::Error>(
     trajectory: &Trajectory,
     limits: Limits,
-    guides: &[usize],
+    at: &[f64],
+    guides: Guides,
     section: &dyn Fn(f64) -> Result<PlacedSection, E>,
 ) -> Result<Carried, ExtrusionError<E>> {
     let builder = Builder {
         trajectory,
-        guides,
         section,
+        guides,
     };
     builder.check_room()?;
     let mut stations = trajectory.stations(limits.angle);
+    for fraction in at {
+        include(&mut stations, fraction * trajectory.length());
+    }
     if !(limits.constant && trajectory.is_straight()) {
         thicken(&mut stations);
     }
@@ -152,10 +163,11 @@ pub fn carry<E: std::error::Error>(
         let refined = builder.refine(&stations, &along, &rows)?;
         if refined.len() == stations.len() {
             builder.check_folds(&along, &rows)?;
+            let sections = builder.parameters(&stations);
             return Ok(Carried {
                 along,
                 rows,
-                sections: builder.parameters(&stations),
+                sections,
             });
         }
         stations = refined;
@@ -164,6 +176,22 @@ pub fn carry<E: std::error::Error>(
         }
     }
     Err(ExtrusionError::TooManySections(stations.len()))
+}
+
+/// Of a station that is asked for: how near another one is replaced by it, as a fraction of the mean spacing.
+const SLIVER: f64 = 0.05;
+
+/// Puts a station among the others, in place of an inner one that is nearly there.
+fn include(stations: &mut Vec<f64>, s: f64) {
+    let last = stations.len() - 1;
+    let near = SLIVER * stations[last] / last as f64;
+    if !(s > 0.0 && s < stations[last]) {
+        return;
+    }
+    let ends = [stations[0], stations[last]];
+    stations.retain(|one| ends.contains(one) || (one - s).abs() > near);
+    let at = stations.partition_point(|one| *one < s);
+    stations.insert(at, s);
 }
 
 /// Fewer than four sections cannot carry a cubic: halve the spans until there are enough.
@@ -187,8 +215,8 @@ fn halved(stations: &[f64], chosen: impl Fn(usize) -> bool) -> Vec<f64> {
 
 struct Builder<'a, E: std::error::Error> {
     trajectory: &'a Trajectory,
-    guides: &'a [usize],
     section: &'a dyn Fn(f64) -> Result<PlacedSection, E>,
+    guides: Guides,
 }
 
 impl<E: std::error::Error> Builder<'_, E> {
@@ -226,8 +254,11 @@ impl<E: std::error::Error> Builder<'_, E> {
         along: &KnotVector,
         rows: &[Vec<DVec3>],
     ) -> Result<Vec<f64>, ExtrusionError<E>> {
-        let curves = self
-            .guides
+        let guides = match self.guides {
+            Guides::Outline => vec![0, rows.len() / 2, rows.len() - 1],
+            Guides::All => (0..rows.len()).collect(),
+        };
+        let curves = guides
             .iter()
             .map(|&row| Curve::new(along.clone(), rows[row].clone()))
             .collect::<Result<Vec<_>, _>>()
@@ -239,7 +270,7 @@ impl<E: std::error::Error> Builder<'_, E> {
                 let s = pair[0] + (pair[1] - pair[0]) * probe;
                 let (place, section) = self.place(s)?;
                 let along = place.tangent().extend(0.0);
-                for (curve, &row) in curves.iter().zip(self.guides) {
+                for (curve, &row) in curves.iter().zip(&guides) {
                     let miss = curve.point(s / length) - stand(&place, section.points[row]);
                     // What lies along the trajectory is only a shift of parameter.
                     if (miss - along * along.dot(miss)).length() > section.tolerance {
@@ -369,6 +400,6 @@ impl<E: std::error::Error> Builder<'_, E> {
 }
 
 /// A section's point in space: upright, perpendicular to the trajectory.
-fn stand(place: &Place, point: DVec2) -> DVec3 {
+pub(super) fn stand(place: &Place, point: DVec2) -> DVec3 {
     (place.point + place.right() * point.x).extend(point.y)
 }

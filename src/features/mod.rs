@@ -3,23 +3,35 @@
 //! This layer knows numbers, not model files: every parameter is sampled already. It knows no rules
 //! either: what removes what is decided in [`crate::model`].
 
+pub mod bends;
 pub mod between;
 pub mod body;
 pub mod boundary;
 pub mod channel;
 pub mod clinoform;
+pub mod conform;
 pub mod ellipsoid;
 pub mod extent;
 pub mod extrusion;
 pub mod frame;
 pub mod horizon;
+pub mod join;
 pub mod lag;
+pub mod levee;
+pub mod lobe;
 pub mod meander;
 mod nudge;
 pub mod pinch_out;
+pub mod plug;
+pub mod point_bars;
 pub mod profile;
 pub mod reach;
+pub mod scour;
 pub mod section;
+pub mod shell;
 pub mod side;
+pub mod sigmoid;
+pub mod splay;
+pub mod stacking;
 pub mod thickness;
 pub mod trajectory;

@@ -257,6 +257,25 @@ impl Trajectory {
         }
     }
 
+    /// The part between two arc lengths (m), which are clamped to the trajectory.
+    pub fn between(&self, from: f64, to: f64) -> Result<Self, TrajectoryError> {
+        let (from, to) = (from.max(0.0), to.min(self.length()));
+        // Written so that a number that is none fails too.
+        if !(to > from) {
+            return Err(TrajectoryError::NoLength);
+        }
+        // A sample at an end, to rounding, is that end.
+        let rounding = 1e-12 * self.length();
+        let inner = |place: &&Place| place.s > from + rounding && place.s < to - rounding;
+        let mut places = vec![self.at(from)];
+        places.extend(self.places.iter().filter(inner));
+        places.push(self.at(to));
+        for place in &mut places {
+            place.s -= from;
+        }
+        Ok(Self { places })
+    }
+
     /// Arc lengths of the sections: both ends, and wherever the direction has turned by the limit
     /// since the last one (to and fro counts twice the limit: a gentle meander turns back in time).
     pub fn stations(&self, angle_limit: f64) -> Vec<f64> {

@@ -38,6 +38,7 @@ impl Interior {
         match body {
             Body::Side(side) => Ok(Self::Side(Arc::clone(side))),
             Body::Ellipsoid(ellipsoid) => Ok(Self::Ellipsoid(Arc::new(ellipsoid.clone()))),
+            Body::Shell(shell) => Ok(Self::Shell(Arc::clone(shell.inside()))),
             Body::Trough(_) => {
                 let sheets = body.sheets()?.into_iter().map(|sheet| sheet.1).collect();
                 Ok(Self::Shell(Arc::new(Enclosure::new(sheets)?)))

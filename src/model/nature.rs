@@ -100,7 +100,7 @@ pub enum Taking {
 pub enum Volumes {
     /// One.
     One,
-    /// As many as it is drawn with, up to a number; together they leave nothing of what they divide.
+    /// As many as it is drawn with, up to a number; what they divide may have nothing left.
     Many {
         /// The number.
         most: u64,

@@ -218,7 +218,7 @@ impl AssemblyPlan {
         }
         let heights = match &*body {
             Body::Side(side) => side.heights(),
-            Body::Trough(_) | Body::Ellipsoid(_) => None,
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => None,
         };
         if heights.is_some_and(|[_, highest]| highest <= self.low().z) {
             let name = &self.names[instance.volume];
@@ -270,7 +270,7 @@ impl AssemblyPlan {
         let mut tops = vec![Top::Free; bodies.len()];
         let level_of = |body: &Body| match body {
             Body::Side(side) => side.level(),
-            Body::Trough(_) | Body::Ellipsoid(_) => None,
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => None,
         };
         let level_horizons: Vec<Option<f64>> =
             bodies.iter().map(|one| level_of(&one.body)).collect();
@@ -307,7 +307,7 @@ impl AssemblyPlan {
                 Body::Side(side) => side.heights().is_some_and(|[lowest, highest]| {
                     lowest - same <= level && level <= highest + same
                 }),
-                Body::Trough(_) | Body::Ellipsoid(_) => false,
+                Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => false,
             };
             if by_age && !is_shared && level < self.high().z && bodies.iter().any(runs_along) {
                 tops[i] = Top::UnderLid(level);
@@ -335,7 +335,7 @@ impl AssemblyPlan {
         };
         let flush = match (level, &*reaching.body) {
             // Only troughs have a level top.
-            (None, _) | (Some(_), Body::Ellipsoid(_) | Body::Side(_)) => None,
+            (None, _) | (Some(_), Body::Ellipsoid(_) | Body::Shell(_) | Body::Side(_)) => None,
             (Some(level), Body::Trough(trough)) => {
                 let raised = trough.raised().map_err(|source| PlanError {
                     volume: self.names[reaching.volume].clone(),

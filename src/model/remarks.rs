@@ -270,6 +270,16 @@ fn points_within(body: &Body) -> Box<dyn Iterator<Item = DVec3> + '_> {
             });
             Box::new(std::iter::once(center).chain(shells))
         }
+        Body::Shell(shell) => {
+            let (low, high) = shell.bounds();
+            let geological = shell
+                .sheets()
+                .iter()
+                .filter(|sheet| sheet.0.is_geological());
+            let distance = BESIDE * low.distance(high);
+            let points = geological.flat_map(move |sheet| beside(&sheet.1, distance));
+            Box::new(points.filter(|point| shell.contains(*point)))
+        }
         Body::Side(_) => Box::new(std::iter::empty()),
     }
 }

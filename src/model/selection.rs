@@ -92,12 +92,27 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     if feature.id == name {
         return Some(Named::Volume);
     }
+    let is_in_parent = |path: &str| match feature.parent.map(|parent| &model.features[parent]) {
+        None => path.is_empty(),
+        Some(parent) => matches!(names(model, parent, path), Some(Named::Volume)),
+    };
     if feature.kind.nature().is_many() {
-        let start = format!("{}{}-", path(model, feature), feature.id);
-        let named = feature.kind.volume_name(name.strip_prefix(&start)?)?;
-        return Some(match named {
-            VolumeName::Volume => Named::Volume,
-            VolumeName::First => Named::FirstBelt(name.rsplit_once('/').map_or(name, |all| all.0)),
+        let starts = std::iter::once(0).chain(name.match_indices('/').map(|(at, _)| at + 1));
+        return starts.into_iter().find_map(|at| {
+            let rest = name[at..].strip_prefix(&feature.id)?;
+            if !is_in_parent(name[..at].trim_end_matches('/')) {
+                return None;
+            }
+            // All that one of its parents holds of it.
+            let Some(rest) = rest.strip_prefix('-') else {
+                return rest.is_empty().then_some(Named::Volume);
+            };
+            Some(match feature.kind.volume_name(rest)? {
+                VolumeName::Volume => Named::Volume,
+                VolumeName::First => {
+                    Named::FirstBelt(name.rsplit_once('/').map_or(name, |all| all.0))
+                }
+            })
         });
     }
     let (path, own) = name.rsplit_once('/').unwrap_or(("", name));
@@ -109,11 +124,7 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
         }
         None => rest.is_empty() && feature.count == 1,
     };
-    let is_in_parent = match feature.parent.map(|parent| &model.features[parent]) {
-        None => path.is_empty(),
-        Some(parent) => matches!(names(model, parent, path), Some(Named::Volume)),
-    };
-    (is_own && is_in_parent).then_some(Named::Volume)
+    (is_own && is_in_parent(path)).then_some(Named::Volume)
 }
 
 /// A volume's number, written as the program writes it.

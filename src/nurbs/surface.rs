@@ -169,6 +169,17 @@ impl Surface {
         surface
     }
 
+    /// The same surface with every control point at another place: exactly what an affine map makes of it.
+    pub fn mapped(&self, map: impl Fn(&DVec3) -> DVec3) -> Result<Self, SurfaceError> {
+        let net = self.net.iter().map(map).collect();
+        let (u, v) = (self.u.clone(), self.v.clone());
+        if self.is_rational() {
+            Self::rational(u, v, net, self.weights.clone())
+        } else {
+            Self::new(u, v, net)
+        }
+    }
+
     /// The knot vector in u.
     pub fn knots_u(&self) -> &KnotVector {
         &self.u

@@ -14,6 +14,8 @@ mod ellipsoids;
 mod files;
 mod lags;
 mod overrides;
+mod plugs;
+mod point_bars;
 mod shorefaces;
 
 use clinothem::model::{Defects, Format, Model, Source};

@@ -91,6 +91,7 @@ fn region(
     let surfaces = match &shell.body {
         Body::Trough(trough) => only(near(trough)?, None),
         Body::Ellipsoid(ellipsoid) => wedges(ellipsoid.skin())?,
+        Body::Shell(shell) => only(shell.sheets().to_vec(), None),
         Body::Side(side) => {
             return Ok(match side.level() {
                 Some(level) => Region::Above(level),

@@ -209,10 +209,7 @@ impl Kind for ChannelSpec {
         let trough = design
             .build(&trajectory)
             .map_err(|error| (error.reason(), error.to_string()))?;
-        let reach = Reach {
-            trajectory,
-            channel: design,
-        };
+        let reach = Reach::new(design, Arc::new(trajectory), &trough);
         Ok(Made {
             frame: Frame::Along(Arc::new(reach)),
             ..Made::body(Body::Trough(trough), draws.taken())

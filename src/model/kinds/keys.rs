@@ -37,6 +37,17 @@ impl<'t> Keys<'_, 't> {
         self.checker.reader.need(field, *node, name, key, example)
     }
 
+    /// How many features of the same kind and with the same parent come before it.
+    pub(crate) fn elder_siblings(&self) -> usize {
+        let named = |draft: &Draft| {
+            let parent = draft.parent.as_ref().map(|(_, id)| id.clone());
+            (draft.kind.map(|kind| kind.name), parent)
+        };
+        let own = named(self.draft);
+        let elder = &self.family.drafts[..self.family.own];
+        elder.iter().filter(|draft| named(draft) == own).count()
+    }
+
     /// A profile that must be there, with its place.
     pub(crate) fn profile(
         &self,

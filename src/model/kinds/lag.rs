@@ -8,7 +8,7 @@ use super::keys::Keys;
 use super::made::{Frame, Made, Part, Site, TakesFrom};
 use crate::features::body::Body;
 use crate::features::extrusion::ExtrusionError;
-use crate::features::lag::{LEAST_DROP, LagBodyError, LagDesign};
+use crate::features::lag::{CLEARANCE, LagDesign, LagError, THICKEST, THINNEST};
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -23,8 +23,8 @@ const SAG_FRACTION: f64 = 0.5;
 
 /// Where it is nearly 0, the lag's top would touch the channel's base.
 const THICKNESS: Limits = Limits {
-    low: 0.02,
-    high: 0.6,
+    low: THINNEST,
+    high: THICKEST,
     open: false,
     words: "must lie between 0.02 and 0.6 (a fraction of the channel's depth)",
 };
@@ -42,6 +42,8 @@ pub struct LagSpec {
     pub thickness_fraction: Profile,
     /// How much the top sags with the channel's base: 0 is level.
     pub sag_fraction: Profile,
+    /// Which of several lags of its channel it is, from 0.
+    pub order: usize,
 }
 
 /// A lag: coarse residue on the floor of a channel (`parent`), along all of its thalweg.
@@ -95,7 +97,7 @@ impl Kind for LagSpec {
         if let (Some(f), Some(g)) = (
             constant(&thickness, THICKNESS_FRACTION),
             constant(&sag, SAG_FRACTION),
-        ) && (1.0 - f) * (1.0 - g) < LEAST_DROP
+        ) && (1.0 - f) * (1.0 - g) < CLEARANCE
         {
             let at = sag.as_ref().or(thickness.as_ref()).map(|given| given.0);
             keys.checker.reader.wrong(
@@ -104,7 +106,7 @@ impl Kind for LagSpec {
                     "with a thickness_fraction of {f} and a sag_fraction of {g} the top of {} would share its edges with the channel's",
                     keys.draft.name
                 ),
-                format!("make one of them smaller: (1 − thickness_fraction) (1 − sag_fraction) must be at least {LEAST_DROP}"),
+                format!("make one of them smaller: (1 − thickness_fraction) (1 − sag_fraction) must be at least {CLEARANCE}"),
             );
             return None;
         }
@@ -114,29 +116,29 @@ impl Kind for LagSpec {
         Some(Self {
             thickness_fraction: or(thickness, THICKNESS_FRACTION),
             sag_fraction: or(sag, SAG_FRACTION),
+            order: keys.elder_siblings(),
         })
     }
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
-        let Frame::Along(reach) = site.frame else {
-            return Err(("no channel", "its parent is no channel".to_owned()));
-        };
+        let reach = site.reach()?;
         let design = LagDesign {
             thickness: draws.profile(&self.thickness_fraction, "thickness_fraction")?,
             sag: draws.profile(&self.sag_fraction, "sag_fraction")?,
+            order: self.order,
         };
-        let reason = |error: LagBodyError| match &error {
-            LagBodyError::Carried(ExtrusionError::Section(..)) => {
-                ("impossible section", error.to_string())
+        let reason = |error: LagError| match &error {
+            LagError::Extrusion(carried) if !matches!(**carried, ExtrusionError::Section(..)) => {
+                ("surface out of tolerance", error.to_string())
             }
-            _ => ("surface out of tolerance", error.to_string()),
+            _ => ("impossible section", error.to_string()),
         };
         let lag = design.build(reach).map_err(reason)?;
         Ok(Made {
             parts: vec![Part {
                 from: TakesFrom::ParentItself,
                 drawn: draws.taken(),
-                ..Part::of(Body::Trough(lag))
+                ..Part::of(Body::Shell(lag))
             }],
             frame: Frame::None,
             decisions: Vec::new(),

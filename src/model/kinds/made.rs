@@ -6,6 +6,7 @@ use crate::features::body::Body;
 use crate::features::horizon::Horizon;
 use crate::features::reach::Reach;
 use crate::model::domain::Domain;
+use crate::model::draws::Reason;
 use crate::model::interior::Interior;
 use crate::model::values::surface::HorizonSurface;
 
@@ -25,6 +26,18 @@ pub(crate) struct Site<'a> {
     /// How far it moves so that contacts which coincide are decided by age (m): less than nothing, and less for younger
     /// ones of the kind; 0 if they are not.
     pub(crate) nudge: f64,
+}
+
+impl Site<'_> {
+    /// The channel that it lies in.
+    pub(crate) fn reach(&self) -> Result<&Reach, Reason> {
+        match self.frame {
+            Frame::Along(reach) => Ok(reach),
+            Frame::None | Frame::Unit(_) => {
+                Err(("no channel", "its parent is no channel".to_owned()))
+            }
+        }
+    }
 }
 
 /// One instance: the volumes that it makes, in order of evaluation, and what its children are placed by.

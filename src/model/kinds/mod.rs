@@ -4,6 +4,7 @@
 //! be said of it when it is meshed. Its geometry is in `features`, which knows no model file. A kind says what it is by its
 //! [`Nature`]; everything else of the program asks that, and never for the kind itself.
 
+mod centre;
 pub(crate) mod channel;
 pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
@@ -11,6 +12,8 @@ pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
 pub(crate) mod made;
+pub(crate) mod plug;
+pub(crate) mod point_bars;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -25,6 +28,8 @@ use horizon::HorizonSpec;
 use keys::Keys;
 use lag::LagSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
+use plug::PlugSpec;
+use point_bars::PointBarsSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -177,6 +182,10 @@ kinds! {
     Clinoforms(ClinoformsSpec),
     /// The lowest part of a channel's fill.
     Lag(LagSpec),
+    /// What fills an abandoned channel.
+    Plug(PlugSpec),
+    /// Packages between lateral-accretion surfaces at the inner bends of a channel.
+    PointBars(PointBarsSpec),
 }
 
 impl FeatureKind {

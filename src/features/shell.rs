@@ -1,0 +1,211 @@
+//! Closed shells of any sheets: what a feature is that is neither trough nor ellipsoid.
+//!
+//! A feature that lies in another one is a **tube**: two sheets, one above or beside the other, each carried along the same
+//! trajectory, ruled sides between their borders and ruled ends. A part of a tube is *visible*, the surface of the rock; the
+//! rest is *hidden*: it lies outside of what the feature lies in, whose own surface cuts the tube (\[J19\] §2.5.2: overshoot
+//! and cut). No sheet is trimmed, and none coincides with another one. Which sheets are hidden, their roles say.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3Swizzles};
+
+use super::body::Role;
+use super::nudge::Nudge;
+use super::side::points_bounds;
+use crate::nurbs::enclosure::{Enclosure, EnclosureError};
+use crate::nurbs::{ElevateError, KnotError, KnotVector, RefineError, Surface, SurfaceError};
+
+/// Why sheets make no closed shell.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ShellError {
+    /// A sheet is no surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// A sheet has no knots.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// A knot cannot be inserted.
+    #[error(transparent)]
+    Refine(#[from] RefineError),
+    /// A degree cannot be elevated.
+    #[error(transparent)]
+    Elevate(#[from] ElevateError),
+    /// The sheets leave gaps.
+    #[error("its sheets do not join: {0}")]
+    Open(#[from] EnclosureError),
+}
+
+/// A closed shell: sheets with roles, of which every side is the side of another one, of itself, or a point.
+#[derive(Clone, Debug)]
+pub struct Shell {
+    sheets: Vec<(Role, Surface)>,
+    inside: Arc<Enclosure>,
+}
+
+impl PartialEq for Shell {
+    fn eq(&self, other: &Self) -> bool {
+        self.sheets == other.sheets
+    }
+}
+
+impl Shell {
+    /// The shell of sheets that join.
+    pub fn new(sheets: Vec<(Role, Surface)>) -> Result<Self, ShellError> {
+        let surfaces = sheets.iter().map(|sheet| sheet.1.clone()).collect();
+        let inside = Arc::new(Enclosure::new(surfaces)?);
+        Ok(Self { sheets, inside })
+    }
+
+    /// Its sheets with their roles.
+    pub fn sheets(&self) -> &[(Role, Surface)] {
+        &self.sheets
+    }
+
+    /// The first sheet of a role.
+    pub fn sheet(&self, role: Role) -> Option<&Surface> {
+        let found = self.sheets.iter().find(|sheet| sheet.0 == role);
+        found.map(|sheet| &sheet.1)
+    }
+
+    /// Tells whether it holds a point.
+    pub fn inside(&self) -> &Arc<Enclosure> {
+        &self.inside
+    }
+
+    /// Whether it holds a point; what is on it counts as held.
+    pub fn contains(&self, point: DVec3) -> bool {
+        self.inside.contains(point)
+    }
+
+    /// See [`super::body::Body::nudged`]: stretched about its own box, and moved. One affine map for all of it, so that sheets still
+    /// join, whatever their degrees and weights.
+    pub(super) fn nudged(&self, nudge: &Nudge) -> Result<Self, ShellError> {
+        let (low, high) = self.bounds();
+        let (middle, size) = (0.5 * (low + high).xy(), high - low);
+        let longer = 2.0 * nudge.reach / size.xy().max_element();
+        let flatter = nudge.rise / size.z;
+        let moved = |p: &DVec3| {
+            let at = p.xy() + longer * (p.xy() - middle);
+            at.extend(p.z + flatter * (high.z - p.z)) + nudge.shift
+        };
+        let sheets = self
+            .sheets
+            .iter()
+            .map(|(role, sheet)| Ok((*role, sheet.mapped(moved)?)));
+        Self::new(sheets.collect::<Result<_, SurfaceError>>()?)
+    }
+
+    /// The corners of the box of its control points.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        points_bounds(self.sheets.iter().flat_map(|sheet| sheet.1.net()))
+    }
+}
+
+/// Two sheets over the same v, with u across, between which a tube is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tube {
+    /// The sheets.
+    pub sheets: [Surface; 2],
+    /// Their roles.
+    pub roles: [Role; 2],
+    /// The roles of what is ruled between their borders at the first and at the last u.
+    pub sides: [Role; 2],
+}
+
+impl Tube {
+    /// The tube closed by ruled sides and ends. Edges are the sheets' own control points (of degrees that differ across, the
+    /// ends have degree-elevated copies, \[J19\] §2.5.1).
+    pub fn close(&self) -> Result<Shell, ShellError> {
+        let [one, other] = &self.sheets;
+        let ends = |knots: &KnotVector| {
+            let (first, last) = knots.domain();
+            [first, last]
+        };
+        let [from, to] = ends(one.knots_u());
+        let [other_from, other_to] = ends(other.knots_u());
+        let side = |u: f64, v: f64| Surface::ruled(&one.isocurve_u(u), &other.isocurve_u(v));
+        let [start, end] = self.ends()?;
+        Shell::new(vec![
+            (self.roles[0], one.clone()),
+            (self.roles[1], other.clone()),
+            (self.sides[0], side(from, other_from)?),
+            (self.sides[1], side(to, other_to)?),
+            start,
+            end,
+        ])
+    }
+
+    /// The same of two sheets that share their borders at the first and the last u already: without sides.
+    pub fn close_at_rims(&self) -> Result<Shell, ShellError> {
+        let closed = [
+            (self.roles[0], self.sheets[0].clone()),
+            (self.roles[1], self.sheets[1].clone()),
+        ];
+        let [start, end] = self.ends()?;
+        Shell::new(closed.into_iter().chain([start, end]).collect())
+    }
+
+    /// The ruled sheets at the first and the last v.
+    fn ends(&self) -> Result<[(Role, Surface); 2], SurfaceError> {
+        let [one, other] = &self.sheets;
+        let (start, end) = one.knots_v().domain();
+        let across = |v: f64| Surface::ruled(&one.isocurve_v(v), &other.isocurve_v(v));
+        Ok([(Role::Start, across(start)?), (Role::End, across(end)?)])
+    }
+
+    /// The tube continued beyond its ends along the ends' own tangents, by lengths of v.
+    pub fn continued(&self, [before, after]: [f64; 2]) -> Result<Self, ShellError> {
+        let [one, other] = &self.sheets;
+        Ok(Self {
+            sheets: [
+                continued(one, before, after)?,
+                continued(other, before, after)?,
+            ],
+            ..self.clone()
+        })
+    }
+}
+
+/// A polynomial surface with straight pieces of v before and after it, along its own tangents. The surface as it was is a part of
+/// it, control points and all: its ends become knots of multiplicity q.
+fn continued(surface: &Surface, before: f64, after: f64) -> Result<Surface, ShellError> {
+    let knots = surface.knots_v();
+    let (q, count) = (knots.degree(), knots.count());
+    let old = knots.as_slice();
+    let (start, end) = knots.domain();
+    let mut along = old[1..old.len() - 1].to_vec();
+    let mut rows: Vec<Vec<DVec3>> = surface.net().chunks(count).map(<[DVec3]>::to_vec).collect();
+    // The speed at a clamped end is q times the first leg over the knot span.
+    if before > 0.0 {
+        let step = before / (old[q + 1] - old[q]);
+        for row in &mut rows {
+            let (first, leg) = (row[0], row[0] - row[1]);
+            let beyond = (1..=q).rev().map(|k| first + leg * (step * k as f64));
+            *row = beyond.chain(row.iter().copied()).collect();
+        }
+        along.splice(0..0, vec![start - before; q + 1]);
+    } else {
+        along.insert(0, start);
+    }
+    if after > 0.0 {
+        let step = after / (old[count] - old[count - 1]);
+        for row in &mut rows {
+            let n = row.len();
+            let (last, leg) = (row[n - 1], row[n - 1] - row[n - 2]);
+            row.extend((1..=q).map(|k| last + leg * (step * k as f64)));
+        }
+        along.extend(vec![end + after; q + 1]);
+    } else {
+        along.push(end);
+    }
+    let along = KnotVector::new(q, along)?;
+    Ok(Surface::new(
+        surface.knots_u().clone(),
+        along,
+        rows.concat(),
+    )?)
+}
+
+#[cfg(test)]
+#[path = "shell_tests.rs"]
+mod tests;

@@ -1,0 +1,362 @@
+//! Compensational stacking: later lobes prefer the hollows between older ones (Straub et al. 2009).
+//!
+//! A lobe's centre is drawn with a probability proportional to exp(−C (T(x) − min T)/H), T the relief that older lobes have
+//! made, H the lobe's thickness and C the strength of compensation: 0 places lobes at random, and with 20 or more each lies at
+//! the lowest place. As each lobe drapes what it lies on, the relief is the sum of the thicknesses.
+
+use glam::DVec2;
+
+use super::horizon::{Horizon, HorizonError};
+use super::lobe::Lobe;
+
+/// Cells of the grid of possible centres in a lobe's width.
+const CELLS: f64 = 20.0;
+/// Places along a cell at which a floor's deviation is measured.
+const PROBES: usize = 5;
+/// Most cells along a side of the region.
+const MOST_CELLS: f64 = 400.0;
+
+/// Where centres of lobes may be: a polygon in plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    corners: Vec<DVec2>,
+    low: DVec2,
+    high: DVec2,
+}
+
+/// Why corners make no region.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RegionError {
+    /// Too few corners.
+    #[error("a region has {0} corners: give at least 3")]
+    Corners(usize),
+    /// A corner that is no place.
+    #[error("corner {index} of the region is {value}: coordinates must be finite")]
+    NotFinite {
+        /// Which, from 0.
+        index: usize,
+        /// The corner.
+        value: DVec2,
+    },
+    /// It has no area.
+    #[error("the region has no area")]
+    Empty,
+}
+
+impl Region {
+    /// The inside of a polygon.
+    pub fn new(corners: Vec<DVec2>) -> Result<Self, RegionError> {
+        if corners.len() < 3 {
+            return Err(RegionError::Corners(corners.len()));
+        }
+        if let Some((index, &value)) = corners.iter().enumerate().find(|(_, p)| !p.is_finite()) {
+            return Err(RegionError::NotFinite { index, value });
+        }
+        let empty = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let (low, high) = corners
+            .iter()
+            .fold(empty, |(low, high), p| (low.min(*p), high.max(*p)));
+        let region = Self { corners, low, high };
+        if region.area() > 0.0 {
+            Ok(region)
+        } else {
+            Err(RegionError::Empty)
+        }
+    }
+
+    /// A rectangle along the axes.
+    pub fn rectangle(low: DVec2, high: DVec2) -> Result<Self, RegionError> {
+        let corners = [
+            low,
+            DVec2::new(high.x, low.y),
+            high,
+            DVec2::new(low.x, high.y),
+        ];
+        Self::new(corners.to_vec())
+    }
+
+    /// Its area (m²).
+    pub fn area(&self) -> f64 {
+        let next = self.corners.iter().cycle().skip(1);
+        let sides = self.corners.iter().zip(next);
+        0.5 * sides
+            .map(|(a, b)| (*a - self.low).perp_dot(*b - self.low))
+            .sum::<f64>()
+            .abs()
+    }
+
+    /// Whether it holds a place.
+    pub fn contains(&self, at: DVec2) -> bool {
+        let next = self.corners.iter().cycle().skip(1);
+        let crossings = self.corners.iter().zip(next).filter(|(a, b)| {
+            let is_between = (a.y > at.y) != (b.y > at.y);
+            is_between && at.x < a.x + (b.x - a.x) * (at.y - a.y) / (b.y - a.y)
+        });
+        crossings.count() % 2 == 1
+    }
+}
+
+/// The relief that lobes have made at a place (m).
+pub fn relief(older: &[Lobe], at: DVec2) -> f64 {
+    older.iter().map(|lobe| lobe.thickness_at(at)).sum()
+}
+
+/// A smooth surface through the relief that lobes have made on a level (m), over a plan, with nodes a distance apart (m); and how far
+/// it is from the relief at most, between nodes. The next lobe lies on it, lowered by twice that: no slivers stay between.
+pub fn floor(
+    older: &[Lobe],
+    level: f64,
+    [low, high]: [DVec2; 2],
+    spacing: f64,
+) -> Result<(Horizon, f64), HorizonError> {
+    let counts = ((high - low) / spacing).ceil().max(DVec2::ONE);
+    let step = (high - low) / counts;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at least one; a number that is none gives one node, which the horizon refuses"
+    )]
+    let [columns, rows] = [counts.x as usize + 1, counts.y as usize + 1];
+    let node = |i: usize, j: usize| low + step * DVec2::new(i as f64, j as f64);
+    let height = |at: DVec2| level + relief(older, at);
+    let heights: Vec<Vec<f64>> = (0..rows)
+        .map(|j| (0..columns).map(|i| height(node(i, j))).collect())
+        .collect();
+    let floor = Horizon::grid([low.x, high.x], [low.y, high.y], &heights)?;
+    let mut deviation = 0.0_f64;
+    for i in 0..columns - 1 {
+        for j in 0..rows - 1 {
+            for k in 0..PROBES * PROBES {
+                let part = DVec2::new((k % PROBES) as f64, (k / PROBES) as f64) / PROBES as f64;
+                let at = node(i, j) + step * part;
+                deviation = deviation.max((floor.height(at.x, at.y) - height(at)).abs());
+            }
+        }
+    }
+    Ok((floor, deviation))
+}
+
+/// Lobes of about one size in a region, and where the next one is likely to be.
+#[derive(Clone, Debug)]
+pub struct Stack {
+    region: Region,
+    /// Size of a cell.
+    step: DVec2,
+    /// Middles of the cells that lie in the region, with the relief there.
+    places: Vec<(DVec2, f64)>,
+}
+
+impl Stack {
+    /// No lobes yet; they will be about so wide (m).
+    pub fn new(region: Region, width: f64) -> Result<Self, RegionError> {
+        let size = region.high - region.low;
+        let cell = (width / CELLS).max(size.max_element() / MOST_CELLS);
+        let counts = (size / cell).ceil().max(DVec2::ONE);
+        let step = size / counts;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between 1 and the most cells"
+        )]
+        let [columns, rows] = [counts.x as usize, counts.y as usize];
+        let middle = |k: usize| {
+            let at = DVec2::new((k % columns) as f64 + 0.5, (k / columns) as f64 + 0.5);
+            region.low + step * at
+        };
+        let all = (0..columns * rows).map(middle);
+        let places: Vec<_> = all
+            .filter(|at| region.contains(*at))
+            .map(|at| (at, 0.0))
+            .collect();
+        if places.is_empty() {
+            return Err(RegionError::Empty);
+        }
+        Ok(Self {
+            region,
+            step,
+            places,
+        })
+    }
+
+    /// Puts a lobe on what is there.
+    pub fn lay(&mut self, lobe: &Lobe) {
+        for (at, height) in &mut self.places {
+            *height += lobe.thickness_at(*at);
+        }
+    }
+
+    /// The centre of the next lobe, of a thickness (m), by three numbers from 0 to 1.
+    pub fn next_center(&self, thickness: f64, compensation: f64, draws: [f64; 3]) -> DVec2 {
+        let heights = self.places.iter().map(|place| place.1);
+        let lowest = heights.fold(f64::INFINITY, f64::min);
+        let weight = |height: f64| (-compensation * (height - lowest) / thickness).exp();
+        let all: f64 = self.places.iter().map(|place| weight(place.1)).sum();
+        let mut rest = draws[0] * all;
+        let chosen = self.places.iter().position(|place| {
+            rest -= weight(place.1);
+            rest < 0.0
+        });
+        // Rounding may leave nothing for the last one.
+        let at = self.places[chosen.unwrap_or(self.places.len() - 1)].0;
+        let within = at + self.step * (DVec2::new(draws[1], draws[2]) - 0.5);
+        if self.region.contains(within) {
+            within
+        } else {
+            at
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::features::lobe::LobeDesign;
+
+    fn lobe(center: DVec2) -> Lobe {
+        let design = LobeDesign {
+            center: center.extend(0.0),
+            length: 135.0,
+            width: 90.0,
+            thickness: 4.0,
+            azimuth: 0.7,
+            taper: 0.3,
+            skew: 0.2,
+        };
+        design.build().unwrap()
+    }
+
+    /// Numbers without pattern (splitmix64), another series for each stack.
+    fn draws(k: u32, of: u32) -> [f64; 3] {
+        [0, 1, 2].map(|which| {
+            let seed = (u64::from(of) << 40) + (u64::from(k) << 8) + which;
+            let mut z = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            ((z ^ (z >> 31)) >> 11) as f64 / 2.0_f64.powi(53)
+        })
+    }
+
+    fn stack(count: u32, compensation: f64, of: u32) -> Vec<Lobe> {
+        let region = Region::rectangle(DVec2::ZERO, DVec2::new(1000.0, 800.0)).unwrap();
+        let mut stack = Stack::new(region, 90.0).unwrap();
+        let mut made = Vec::new();
+        for k in 0..count {
+            let one = lobe(stack.next_center(4.0, compensation, draws(k, of)));
+            stack.lay(&one);
+            made.push(one);
+        }
+        made
+    }
+
+    /// Mean of the relief, and its standard deviation as a fraction, in the middle of the region.
+    fn spread(lobes: &[Lobe]) -> [f64; 2] {
+        let places = (0..80 * 60).map(|k| {
+            let at = DVec2::new(f64::from(k % 80), f64::from(k / 80));
+            relief(lobes, DVec2::splat(100.0) + 10.0 * at)
+        });
+        let all: Vec<f64> = places.collect();
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let square = all.iter().map(|z| (z - mean).powi(2)).sum::<f64>() / all.len() as f64;
+        [mean, square.sqrt() / mean]
+    }
+
+    #[test]
+    fn without_compensation_lobes_cover_what_a_boolean_model_does() {
+        let (count, plan) = (60, PI / 4.0 * 135.0 * 90.0);
+        let mut covered = [0; 2];
+        for of in 0..20 {
+            let lobes = stack(count, 0.0, of);
+            for k in 0..1200 {
+                // Far enough from the region's border.
+                let at = DVec2::new(f64::from(k % 40), f64::from(k / 40));
+                let at = DVec2::new(100.0, 100.0) + at * DVec2::new(20.0, 20.0);
+                covered[usize::from(relief(&lobes, at) > 0.0)] += 1;
+            }
+        }
+        let share = f64::from(covered[1]) / f64::from(covered[0] + covered[1]);
+        let wanted = 1.0 - (-f64::from(count) * plan / 8e5).exp();
+        assert!((share - wanted).abs() < 0.03, "{share} {wanted}");
+    }
+
+    #[test]
+    fn the_stronger_the_compensation_the_more_even_the_relief() {
+        let of = |compensation: f64| {
+            let all = (0..3).map(|of| spread(&stack(150, compensation, of))[1]);
+            all.sum::<f64>() / 3.0
+        };
+        let spreads = [0.0, 2.0, 20.0].map(of);
+        assert!(
+            spreads[0] > 1.1 * spreads[1] && spreads[1] > 1.1 * spreads[2],
+            "{spreads:?}"
+        );
+    }
+
+    #[test]
+    fn with_strong_compensation_a_lobe_lies_in_the_hollow() {
+        let region = Region::rectangle(DVec2::ZERO, DVec2::new(300.0, 40.0)).unwrap();
+        let mut stack = Stack::new(region, 90.0).unwrap();
+        // All but the east is high.
+        for k in 0..6 {
+            stack.lay(&lobe(DVec2::new(f64::from(k) * 40.0, 20.0)));
+        }
+        for k in 0..50 {
+            let at = stack.next_center(4.0, 50.0, draws(k, 3));
+            assert!(at.x > 240.0, "{at}");
+        }
+    }
+
+    #[test]
+    fn a_floor_is_within_its_deviation_of_the_relief_and_nearer_with_more_nodes() {
+        let lobes = [lobe(DVec2::ZERO), lobe(DVec2::new(60.0, 20.0))];
+        let plan = [DVec2::splat(-100.0), DVec2::splat(120.0)];
+        let [(_, coarse), (fine, deviation)] =
+            [20.0, 4.0].map(|spacing| floor(&lobes, -30.0, plan, spacing).unwrap());
+        assert!(
+            deviation < 0.5 * coarse && deviation < 0.3,
+            "{coarse} {deviation}"
+        );
+        for k in 0..3000 {
+            let [x, y, _] = draws(k, 1);
+            let at = plan[0] + (plan[1] - plan[0]) * DVec2::new(x, y);
+            let off = fine.height(at.x, at.y) - (-30.0 + relief(&lobes, at));
+            // Probes are a fifth of a cell apart.
+            assert!(off.abs() < 1.2 * deviation, "{at}: {off}");
+        }
+        assert!(floor(&lobes, -30.0, plan, f64::NAN).is_err());
+    }
+
+    #[test]
+    fn centres_lie_in_the_region_and_the_same_draws_give_the_same() {
+        let corners = [
+            (0.0, 0.0),
+            (400.0, 0.0),
+            (400.0, 50.0),
+            (50.0, 50.0),
+            (50.0, 300.0),
+            (0.0, 300.0),
+        ]
+        .map(|(x, y)| DVec2::new(x, y));
+        let region = Region::new(corners.to_vec()).unwrap();
+        assert!((region.area() - 32_500.0).abs() < 1e-9);
+        let stack = Stack::new(region.clone(), 90.0).unwrap();
+        let mut beyond = 0.0;
+        for k in 0..500 {
+            let at = stack.next_center(4.0, 1.0, draws(k, 0));
+            assert!(region.contains(at), "{at}");
+            beyond += f64::from(at.x > 100.0);
+            assert_eq!(at, stack.next_center(4.0, 1.0, draws(k, 0)));
+        }
+        // As often as its share of the area.
+        assert!(
+            (beyond / 500.0 - 15_000.0 / 32_500.0_f64).abs() < 0.06,
+            "{beyond}"
+        );
+        assert!(Region::new(vec![DVec2::ZERO, DVec2::X]).is_err());
+        assert!(Region::new(vec![DVec2::ZERO, DVec2::X, 2.0 * DVec2::X]).is_err());
+        assert!(Region::rectangle(DVec2::ZERO, DVec2::new(f64::NAN, 1.0)).is_err());
+    }
+}
