@@ -183,7 +183,7 @@ fn tables() -> Vec<(&'static str, String)> {
         .map(|rest| {
             let (place, rest) = rest.split_once(" -->\n").unwrap();
             let lines = rest.lines().take_while(|line| line.starts_with('|'));
-            (place, lines.map(|line| format!("{line}\n")).collect())
+            (place, lines.flat_map(|line| [line, "\n"]).collect())
         })
         .collect()
 }

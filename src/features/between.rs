@@ -174,7 +174,7 @@ mod tests {
             (200.0, 0.0, 300.0)
         );
         assert!(
-            (300.0..=600.0).contains(&found.high.x) && found.cells % 3 == 0,
+            (300.0..=600.0).contains(&found.high.x) && found.cells.is_multiple_of(3),
             "{found:?}"
         );
     }

@@ -105,7 +105,7 @@ impl Chords {
         let pieces = branch.pieces();
         let mut piece = if forward {
             let after = branch.lengths.partition_point(|length| *length <= from);
-            after.checked_sub(1).unwrap_or_default()
+            after.saturating_sub(1)
         } else {
             let before = branch.lengths.partition_point(|length| *length < from);
             before.min(pieces)

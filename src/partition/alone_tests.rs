@@ -19,7 +19,8 @@ const BINOMIAL: [f64; 4] = [1.0, 3.0, 3.0, 1.0];
 
 /// A polynomial's value.
 fn height(z: &Heights, [x, y]: [f64; 2]) -> f64 {
-    let weight = |k: usize, t: f64| BINOMIAL[k] * t.powi(k as i32) * (1.0 - t).powi(3 - k as i32);
+    let power = |base: f64, times: usize| (0..times).fold(1.0, |product, _| product * base);
+    let weight = |k: usize, t: f64| BINOMIAL[k] * power(t, k) * power(1.0 - t, 3 - k);
     (0..16)
         .map(|at| z[at] * weight(at / 4, x) * weight(at % 4, y))
         .sum()

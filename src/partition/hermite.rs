@@ -145,8 +145,9 @@ pub(super) fn part<const K: usize>(points: &[[f64; K]; 6], [from, to]: [f64; 2])
 fn lower<const K: usize>(mut points: [[f64; K]; 6], s: f64) -> [[f64; K]; 6] {
     for round in 1..6 {
         for k in (round..6).rev() {
-            for i in 0..K {
-                points[k][i] = (1.0 - s) * points[k - 1][i] + s * points[k][i];
+            let before = points[k - 1];
+            for (own, before) in points[k].iter_mut().zip(before) {
+                *own = (1.0 - s) * before + s * *own;
             }
         }
     }

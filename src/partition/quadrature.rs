@@ -104,7 +104,7 @@ impl Pair {
     fn node(self, k: usize) -> (f64, f64, f64) {
         let k = k + self.odd();
         let (x, weight) = self.rule[k / 2];
-        let x = if k % 2 == 0 { x } else { -x };
+        let x = if k.is_multiple_of(2) { x } else { -x };
         (x, weight, self.poor[k / 2])
     }
 }

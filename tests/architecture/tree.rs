@@ -91,7 +91,7 @@ impl Tree {
         }
         let handed_on = there.names.imports.get(&name).filter(|path| *path != said);
         let globs = there.names.globs.iter();
-        let by_glob = globs.filter_map(|glob| {
+        let mut by_glob = globs.filter_map(|glob| {
             let whole = [glob.as_slice(), std::slice::from_ref(&name)].concat();
             let (place, _) = self.place(place, &whole)?;
             self.modules[&place]
@@ -100,7 +100,7 @@ impl Tree {
                 .contains(&name)
                 .then_some(whole)
         });
-        match handed_on.cloned().or_else(|| by_glob.last()) {
+        match handed_on.cloned().or_else(|| by_glob.next_back()) {
             Some(path) if !there.names.items.contains(&name) => {
                 if !module.starts_with(place) {
                     from.insert(place);
@@ -146,7 +146,7 @@ impl Tree {
     }
 }
 
-/// `a/b.rs` and `a/b/mod.rs` are the module a::b.
+/// `a/b.rs` and `a/b/mod.rs` are the module `a::b`.
 fn module_of(file: &str) -> Path {
     let whole = file.trim_start_matches('/').trim_end_matches(".rs");
     let mut path: Path = whole.split('/').map(str::to_owned).collect();

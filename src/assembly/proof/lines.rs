@@ -80,7 +80,7 @@ impl<'a> Bodies<'a> {
 
 /// Lines of which the first clear one is followed.
 enum Aim<'a> {
-    Columns([Line; TRIES]),
+    Columns(Vec<Line>),
     /// Across a patch of a surface, given by its parameters, near its middle.
     Patch(&'a Surface, [[f64; 2]; 2]),
 }
@@ -225,7 +225,7 @@ impl Prover<'_> {
                 let part = (cell + DVec2::new(stream.unit(), stream.unit())) / each as f64;
                 Line::whole(2, low + size * part.extend(0.0))
             };
-            lines.push(Aim::Columns(std::array::from_fn(column)));
+            lines.push(Aim::Columns((0..TRIES).map(column).collect()));
         }
         let extrema = super::extrema::columns(self.plan, surfaces, each * each);
         lines.extend(extrema.iter().map(|(place, reach)| {
@@ -233,7 +233,7 @@ impl Prover<'_> {
                 let turn = DVec2::from_angle(2.4 * k as f64) * *reach * (k as f64 / TRIES as f64);
                 Line::whole(2, (*place + turn).extend(0.0))
             };
-            Aim::Columns(std::array::from_fn(column))
+            Aim::Columns((0..TRIES).map(column).collect())
         }));
         lines.extend(self.through_bodies(surfaces, (2 * each * each).min(OF_BODIES)));
         lines

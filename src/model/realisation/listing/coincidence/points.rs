@@ -21,7 +21,7 @@ const AROUND: usize = 8;
 
 /// The scattered points that a surface is fitted to.
 pub(super) struct Points {
-    points: Vec<DVec3>,
+    all: Vec<DVec3>,
     /// How far the surface may miss them (m).
     pub(super) tolerance: f64,
     /// As fine as the points are, and as their lattice.
@@ -41,7 +41,7 @@ impl Points {
             Nodes { low, high, counts }.as_fine_as(spacing)
         });
         Some(Self {
-            points,
+            all: points,
             tolerance: *tolerance,
             nodes,
         })
@@ -93,10 +93,10 @@ impl Places {
         let mut places = Vec::new();
         for (own, other) in [(older, younger), (younger, older)] {
             let key = |place: DVec2| place.to_array().map(f64::to_bits);
-            let others = other.points.map(|points| &*points.points);
+            let others = other.points.map(|points| &*points.all);
             let at_place: Option<BTreeMap<_, f64>> =
                 others.map(|points| points.iter().map(|p| (key(p.xy()), p.z)).collect());
-            for point in own.points.map_or(&[][..], |points| &points.points) {
+            for point in own.points.map_or(&[][..], |points| &points.all) {
                 let height = match &at_place {
                     Some(others) => others.get(&key(point.xy())).copied(),
                     None => Some(other.horizon.height(point.x, point.y)),
