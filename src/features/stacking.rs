@@ -109,12 +109,19 @@ pub fn floor(
     [low, high]: [DVec2; 2],
     spacing: f64,
 ) -> Result<(Horizon, f64), HorizonError> {
+    // Written so that a number that is none fails too.
+    if !(spacing > 0.0) {
+        return Err(HorizonError::Number {
+            name: "distance between nodes",
+            value: spacing,
+        });
+    }
     let counts = ((high - low) / spacing).ceil().max(DVec2::ONE);
     let step = (high - low) / counts;
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "at least one; a number that is none gives one node, which the horizon refuses"
+        reason = "at least one"
     )]
     let [columns, rows] = [counts.x as usize + 1, counts.y as usize + 1];
     let node = |i: usize, j: usize| low + step * DVec2::new(i as f64, j as f64);

@@ -56,7 +56,6 @@ pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
 pub use kinds::made::Bound;
-pub use kinds::plug::{PlugPlace, PlugSpec};
 pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
 pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};

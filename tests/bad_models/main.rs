@@ -14,7 +14,6 @@ mod ellipsoids;
 mod files;
 mod lags;
 mod overrides;
-mod plugs;
 mod point_bars;
 mod shorefaces;
 

@@ -12,7 +12,6 @@ pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
 pub(crate) mod made;
-pub(crate) mod plug;
 pub(crate) mod point_bars;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -28,7 +27,6 @@ use horizon::HorizonSpec;
 use keys::Keys;
 use lag::LagSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
-use plug::PlugSpec;
 use point_bars::PointBarsSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
@@ -182,8 +180,6 @@ kinds! {
     Clinoforms(ClinoformsSpec),
     /// The lowest part of a channel's fill.
     Lag(LagSpec),
-    /// What fills an abandoned channel.
-    Plug(PlugSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
 }

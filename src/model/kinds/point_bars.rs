@@ -263,6 +263,7 @@ impl Kind for PointBarsSpec {
         Ok(Made {
             parts,
             frame: Frame::None,
+            decisions: Vec::new(),
         })
     }
 
