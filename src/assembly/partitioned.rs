@@ -191,9 +191,9 @@ pub(super) fn finish(
             lids: plan.lids.len(),
             topology: Some(made.topology),
             checks: vec![Check {
-                name: "pairs of patches where a curve may be missed",
+                name: "pairs of patches where more curves than were found are not excluded",
                 measured: made.certificates.uncertain as f64,
-                // Said, not demanded: such pairs are smaller than a hundred-thousandth of the domain.
+                // Said, not demanded: on rational patches and beside poles cones are wide.
                 bound: (made.certificates.certain + made.certificates.uncertain) as f64,
                 detail: format!(
                     "{} curves; on {} pairs of patches one is alone for certain",

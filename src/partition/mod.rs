@@ -35,7 +35,6 @@ mod facet;
 mod heights;
 mod hermite;
 mod landing;
-mod linear;
 mod march;
 mod pair;
 mod patch;
