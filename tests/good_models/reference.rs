@@ -25,7 +25,10 @@ fn the_examples_of_the_reference_are_good() {
         let model = model.unwrap_or_else(|defects| panic!("{defects}"));
         kinds.push(model.features[model.features.len() - 1].kind.name());
     }
-    assert_eq!(kinds, ["ellipsoid", "horizon", "clinoforms", "lag", "point-bars"]);
+    assert_eq!(
+        kinds,
+        ["ellipsoid", "horizon", "clinoforms", "lag", "point-bars"]
+    );
     // Lines that stand for themselves are put into the whole example, one at a time.
     let mut lines = 0;
     for block in &blocks {

@@ -403,17 +403,17 @@ impl Keys<'_, '_> {
             );
             return None;
         };
-        let one = |node: &NodeId| match reader.tree.value(*node) {
-            Value::Text(name) => self.checker.known_facies(*node, name, self.family.facies),
-            _ => {
-                let found = reader.tree.describe(*node);
-                reader.wrong(
-                    *node,
-                    format!("expected the name of a facies, found {found}"),
-                    remedy,
-                );
-                None
+        let one = |node: &NodeId| {
+            if let Value::Text(name) = reader.tree.value(*node) {
+                return self.checker.known_facies(*node, name, self.family.facies);
             }
+            let found = reader.tree.describe(*node);
+            reader.wrong(
+                *node,
+                format!("expected the name of a facies, found {found}"),
+                remedy,
+            );
+            None
         };
         let all: Vec<Option<usize>> = nodes.iter().map(one).collect();
         if let Some(surfaces) = surfaces
