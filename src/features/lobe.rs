@@ -104,6 +104,15 @@ fn thickest(skew: f64) -> f64 {
 }
 
 impl LobeDesign {
+    /// The same lobe with its middle at a place in plan.
+    #[must_use]
+    pub fn with_center(self, center: DVec2) -> Self {
+        Self {
+            center: center.extend(self.center.z),
+            ..self
+        }
+    }
+
     /// The same lobe with its upstream end at a place in plan.
     #[must_use]
     pub fn with_apex(self, apex: DVec2) -> Self {
@@ -181,6 +190,21 @@ impl Lobe {
         std::f64::consts::PI / 8.0 * length * width * self.height * (1.0 - skew * taper / 6.0)
     }
 
+    /// The corners of a box in plan that holds it.
+    pub fn plan(&self) -> [DVec2; 2] {
+        let LobeDesign {
+            center,
+            length,
+            width,
+            taper,
+            ..
+        } = self.design;
+        // |b Y (1 + τ X)| is at most b (1 + |τ|).
+        let across = 0.5 * width * (1.0 + taper.abs()) * self.axis.perp().abs();
+        let reach = 0.5 * length * self.axis.abs() + across;
+        [center.truncate() - reach, center.truncate() + reach]
+    }
+
     /// Its thickness at a place in plan (m); 0 beyond its rim.
     pub fn thickness_at(&self, at: DVec2) -> f64 {
         let from = at - self.design.center.truncate();
@@ -196,6 +220,11 @@ impl Lobe {
 
     /// Its closed shell: [`Role::Top`], the cap, and [`Role::Base`], u from the pole to the rim.
     pub fn shell(&self) -> Result<Shell, LobeError> {
+        self.eroding(0.0)
+    }
+
+    /// The same of a lobe that erodes what it lies on: its base is as much deeper than its rim as a fraction of its thickness says.
+    pub fn eroding(&self, erosion: f64) -> Result<Shell, LobeError> {
         let (net, weights) = self.cap();
         let around: Vec<f64> = (0..=4)
             .flat_map(|quarter| {
@@ -205,7 +234,8 @@ impl Lobe {
             .collect();
         let around = KnotVector::new(4, around)?;
         let radial = KnotVector::uniform(3, 4)?;
-        let flat = |p: &DVec3| p.with_z(self.design.center.z);
+        let level = self.design.center.z;
+        let flat = |p: &DVec3| p.with_z(level - erosion * (p.z - level));
         // The same places in plan, so that cap and base have one net of knots whatever they are bent to.
         let base = net.iter().map(flat).collect();
         let sheet = |net| Surface::rational(radial.clone(), around.clone(), net, weights.clone());

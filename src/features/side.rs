@@ -29,6 +29,13 @@ pub trait Open: fmt::Debug + Send + Sync {
 
     /// Whether a point lies on the younger side; points on a sheet do not.
     fn holds(&self, point: DVec3) -> bool;
+
+    /// The elevation (m) of the sheets at a place in plan, and beyond their borders that of their tangent planes there; none if they
+    /// are no heights over the plan.
+    fn height(&self, at: DVec2) -> Option<f64> {
+        let _ = at;
+        None
+    }
 }
 
 /// How the sheets of a side end, and go on for whoever needs them closed.
@@ -107,6 +114,11 @@ impl Side {
         self.open.holds(point)
     }
 
+    /// The elevation of its sheets: see [`Open::height`].
+    pub fn height(&self, at: DVec2) -> Option<f64> {
+        self.open.height(at)
+    }
+
     /// The corners of a box that holds the sheets: that of their control points. Empty (infinite, the wrong way round) if
     /// there are none.
     pub fn bounds(&self) -> (DVec3, DVec3) {
@@ -173,6 +185,10 @@ impl Open for HorizonSheet {
 
     fn holds(&self, point: DVec3) -> bool {
         Self::holds(self, point)
+    }
+
+    fn height(&self, at: DVec2) -> Option<f64> {
+        Some(Self::height(self, at))
     }
 }
 

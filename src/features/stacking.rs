@@ -2,7 +2,7 @@
 //!
 //! A lobe's centre is drawn with a probability proportional to exp(−C (T(x) − min T)/H), T the relief that older lobes have
 //! made, H the lobe's thickness and C the strength of compensation: 0 places lobes at random, and with 20 or more each lies at
-//! the lowest place. As each lobe drapes what it lies on, the relief is the sum of the thicknesses.
+//! the lowest place. Each lobe lies on a smooth surface through what is there, lowered a little so that nothing stays between.
 
 use glam::DVec2;
 
@@ -13,6 +13,8 @@ use super::lobe::Lobe;
 const CELLS: f64 = 20.0;
 /// Places along a cell at which a floor's deviation is measured.
 const PROBES: usize = 5;
+/// How far a lobe's floor is lowered, in deviations of the surface through what is there.
+const LOWERED: f64 = 2.0;
 /// Most cells along a side of the region.
 const MOST_CELLS: f64 = 400.0;
 
@@ -96,51 +98,130 @@ impl Region {
     }
 }
 
-/// The relief that lobes have made at a place (m).
-pub fn relief(older: &[Lobe], at: DVec2) -> f64 {
-    older.iter().map(|lobe| lobe.thickness_at(at)).sum()
+/// Lobes that lie on each other and on a datum.
+pub struct Pile<'a> {
+    /// The elevation of what the oldest ones lie on (m).
+    datum: &'a (dyn Fn(DVec2) -> f64 + Sync),
+    laid: Vec<Laid>,
 }
 
-/// A smooth surface through the relief that lobes have made on a level (m), over a plan, with nodes a distance apart (m); and how far
-/// it is from the relief at most, between nodes. The next lobe lies on it, lowered by twice that: no slivers stay between.
-pub fn floor(
-    older: &[Lobe],
-    level: f64,
-    [low, high]: [DVec2; 2],
-    spacing: f64,
-) -> Result<(Horizon, f64), HorizonError> {
-    // Written so that a number that is none fails too.
-    if !(spacing > 0.0) {
-        return Err(HorizonError::Number {
-            name: "distance between nodes",
-            value: spacing,
-        });
+/// A lobe where it lies.
+struct Laid {
+    lobe: Lobe,
+    floor: Floor,
+    /// The corners of its box in plan.
+    plan: [DVec2; 2],
+}
+
+/// What a lobe lies on: a smooth surface through what is there, lowered a little.
+#[derive(Clone, Debug)]
+pub struct Floor {
+    surface: Horizon,
+    /// How far the surface is from what is there, at most, between its nodes (m).
+    deviation: f64,
+    /// How far it lies below the surface (m).
+    lowered: f64,
+}
+
+impl Floor {
+    /// Its elevation at a place (m): nowhere above what is there, so that no slivers stay between.
+    pub fn height(&self, at: DVec2) -> f64 {
+        self.surface.height(at.x, at.y) - self.lowered
     }
-    let counts = ((high - low) / spacing).ceil().max(DVec2::ONE);
-    let step = (high - low) / counts;
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at least one"
-    )]
-    let [columns, rows] = [counts.x as usize + 1, counts.y as usize + 1];
-    let node = |i: usize, j: usize| low + step * DVec2::new(i as f64, j as f64);
-    let height = |at: DVec2| level + relief(older, at);
-    let heights: Vec<Vec<f64>> = (0..rows)
-        .map(|j| (0..columns).map(|i| height(node(i, j))).collect())
-        .collect();
-    let floor = Horizon::grid([low.x, high.x], [low.y, high.y], &heights)?;
-    let mut deviation = 0.0_f64;
-    for i in 0..columns - 1 {
-        for j in 0..rows - 1 {
-            for k in 0..PROBES * PROBES {
-                let part = DVec2::new((k % PROBES) as f64, (k / PROBES) as f64) / PROBES as f64;
-                let at = node(i, j) + step * part;
-                deviation = deviation.max((floor.height(at.x, at.y) - height(at)).abs());
-            }
+
+    /// How far the surface through what is there is off, at most (m).
+    pub fn deviation(&self) -> f64 {
+        self.deviation
+    }
+
+    /// How far it lies below that surface (m).
+    pub fn lowered(&self) -> f64 {
+        self.lowered
+    }
+
+    /// The same floor, lowered by no less than that (m).
+    #[must_use]
+    pub fn lowered_by(self, least: f64) -> Self {
+        Self {
+            lowered: self.lowered.max(least),
+            ..self
         }
     }
-    Ok((floor, deviation))
+}
+
+impl<'a> Pile<'a> {
+    /// No lobes yet, on a datum (m).
+    pub fn new(datum: &'a (dyn Fn(DVec2) -> f64 + Sync)) -> Self {
+        Self {
+            datum,
+            laid: Vec::new(),
+        }
+    }
+
+    /// The elevation of what is there (m): the upper envelope of the datum and the lobes.
+    pub fn height(&self, at: DVec2) -> f64 {
+        let over = |laid: &Laid| at.cmpge(laid.plan[0]).all() && at.cmple(laid.plan[1]).all();
+        let tops = self
+            .laid
+            .iter()
+            .filter(|laid| over(laid))
+            .filter_map(|laid| {
+                let thickness = laid.lobe.thickness_at(at);
+                (thickness > 0.0).then(|| laid.floor.height(at) + thickness)
+            });
+        tops.fold((self.datum)(at), f64::max)
+    }
+
+    /// How high what is there stands above the datum at a place (m).
+    pub fn relief(&self, at: DVec2) -> f64 {
+        self.height(at) - (self.datum)(at)
+    }
+
+    /// What the next lobe lies on over a plan, with nodes a distance apart (m).
+    pub fn floor(&self, [low, high]: [DVec2; 2], spacing: f64) -> Result<Floor, HorizonError> {
+        // Written so that a number that is none fails too.
+        if !(spacing > 0.0) {
+            return Err(HorizonError::Number {
+                name: "distance between nodes",
+                value: spacing,
+            });
+        }
+        let counts = ((high - low) / spacing).ceil().max(DVec2::ONE);
+        let step = (high - low) / counts;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at least one"
+        )]
+        let [columns, rows] = [counts.x as usize + 1, counts.y as usize + 1];
+        let node = |i: usize, j: usize| low + step * DVec2::new(i as f64, j as f64);
+        let heights: Vec<Vec<f64>> = (0..rows)
+            .map(|j| (0..columns).map(|i| self.height(node(i, j))).collect())
+            .collect();
+        let surface = Horizon::grid([low.x, high.x], [low.y, high.y], &heights)?;
+        let mut deviation = 0.0_f64;
+        for i in 0..columns - 1 {
+            for j in 0..rows - 1 {
+                for k in 0..PROBES * PROBES {
+                    let part = DVec2::new((k % PROBES) as f64, (k / PROBES) as f64) / PROBES as f64;
+                    let at = node(i, j) + step * part;
+                    let off = surface.height(at.x, at.y) - self.height(at);
+                    deviation = deviation.max(off.abs());
+                }
+            }
+        }
+        Ok(Floor {
+            surface,
+            deviation,
+            lowered: LOWERED * deviation,
+        })
+    }
+
+    /// Lays a lobe on a floor.
+    pub fn lay(&mut self, lobe: Lobe, floor: Floor) {
+        let plan = lobe.plan();
+        self.laid.push(Laid { lobe, floor, plan });
+    }
 }
 
 /// Lobes of about one size in a region, and where the next one is likely to be.
@@ -185,10 +266,12 @@ impl Stack {
         })
     }
 
-    /// Puts a lobe on what is there.
-    pub fn lay(&mut self, lobe: &Lobe) {
+    /// Takes note of a lobe, with what the relief is now (m).
+    pub fn lay(&mut self, lobe: &Lobe, relief: impl Fn(DVec2) -> f64) {
         for (at, height) in &mut self.places {
-            *height += lobe.thickness_at(*at);
+            if lobe.thickness_at(*at) > 0.0 {
+                *height = relief(*at);
+            }
         }
     }
 
@@ -247,23 +330,35 @@ mod tests {
         })
     }
 
-    fn stack(count: u32, compensation: f64, of: u32) -> Vec<Lobe> {
+    const LEVEL: f64 = -30.0;
+
+    fn level(_: DVec2) -> f64 {
+        LEVEL
+    }
+
+    /// Lays a lobe on what is there.
+    fn lay(pile: &mut Pile<'_>, lobe: Lobe) {
+        let floor = pile.floor(lobe.plan(), 4.5).unwrap();
+        pile.lay(lobe, floor);
+    }
+
+    fn stack(count: u32, compensation: f64, of: u32) -> Pile<'static> {
         let region = Region::rectangle(DVec2::ZERO, DVec2::new(1000.0, 800.0)).unwrap();
         let mut stack = Stack::new(region, 90.0).unwrap();
-        let mut made = Vec::new();
+        let mut pile = Pile::new(&level);
         for k in 0..count {
             let one = lobe(stack.next_center(4.0, compensation, draws(k, of)));
-            stack.lay(&one);
-            made.push(one);
+            lay(&mut pile, one);
+            stack.lay(&one, |at| pile.relief(at));
         }
-        made
+        pile
     }
 
     /// Mean of the relief, and its standard deviation as a fraction, in the middle of the region.
-    fn spread(lobes: &[Lobe]) -> [f64; 2] {
+    fn spread(pile: &Pile<'_>) -> [f64; 2] {
         let places = (0..80 * 60).map(|k| {
             let at = DVec2::new(f64::from(k % 80), f64::from(k / 80));
-            relief(lobes, DVec2::splat(100.0) + 10.0 * at)
+            pile.relief(DVec2::splat(100.0) + 10.0 * at)
         });
         let all: Vec<f64> = places.collect();
         let mean = all.iter().sum::<f64>() / all.len() as f64;
@@ -281,7 +376,7 @@ mod tests {
                 // Far enough from the region's border.
                 let at = DVec2::new(f64::from(k % 40), f64::from(k / 40));
                 let at = DVec2::new(100.0, 100.0) + at * DVec2::new(20.0, 20.0);
-                covered[usize::from(relief(&lobes, at) > 0.0)] += 1;
+                covered[usize::from(lobes.relief(at) > 0.0)] += 1;
             }
         }
         let share = f64::from(covered[1]) / f64::from(covered[0] + covered[1]);
@@ -306,9 +401,12 @@ mod tests {
     fn with_strong_compensation_a_lobe_lies_in_the_hollow() {
         let region = Region::rectangle(DVec2::ZERO, DVec2::new(300.0, 40.0)).unwrap();
         let mut stack = Stack::new(region, 90.0).unwrap();
+        let mut pile = Pile::new(&level);
         // All but the east is high.
         for k in 0..6 {
-            stack.lay(&lobe(DVec2::new(f64::from(k) * 40.0, 20.0)));
+            let one = lobe(DVec2::new(f64::from(k) * 40.0, 20.0));
+            lay(&mut pile, one);
+            stack.lay(&one, |at| pile.relief(at));
         }
         for k in 0..50 {
             let at = stack.next_center(4.0, 50.0, draws(k, 3));
@@ -317,23 +415,52 @@ mod tests {
     }
 
     #[test]
-    fn a_floor_is_within_its_deviation_of_the_relief_and_nearer_with_more_nodes() {
-        let lobes = [lobe(DVec2::ZERO), lobe(DVec2::new(60.0, 20.0))];
+    fn a_floor_is_nowhere_above_what_is_there_and_nearer_to_it_with_more_nodes() {
+        let mut pile = Pile::new(&level);
+        for center in [DVec2::ZERO, DVec2::new(60.0, 20.0)] {
+            lay(&mut pile, lobe(center));
+        }
         let plan = [DVec2::splat(-100.0), DVec2::splat(120.0)];
-        let [(_, coarse), (fine, deviation)] =
-            [20.0, 4.0].map(|spacing| floor(&lobes, -30.0, plan, spacing).unwrap());
+        let [coarse, fine] = [20.0, 4.0].map(|spacing| pile.floor(plan, spacing).unwrap());
+        let deviation = fine.deviation();
         assert!(
-            deviation < 0.5 * coarse && deviation < 0.3,
-            "{coarse} {deviation}"
+            deviation < 0.5 * coarse.deviation() && deviation < 0.3,
+            "{} {deviation}",
+            coarse.deviation()
         );
         for k in 0..3000 {
             let [x, y, _] = draws(k, 1);
             let at = plan[0] + (plan[1] - plan[0]) * DVec2::new(x, y);
-            let off = fine.height(at.x, at.y) - (-30.0 + relief(&lobes, at));
+            let below = pile.height(at) - fine.height(at);
             // Probes are a fifth of a cell apart.
-            assert!(off.abs() < 1.2 * deviation, "{at}: {off}");
+            assert!(
+                below > 0.8 * deviation && below < 3.2 * deviation,
+                "{at}: {below} {deviation}"
+            );
         }
-        assert!(floor(&lobes, -30.0, plan, f64::NAN).is_err());
+        assert!(pile.floor(plan, f64::NAN).is_err());
+        assert!(fine.clone().lowered_by(9.0).lowered() == 9.0);
+    }
+
+    #[test]
+    fn a_pile_is_as_high_as_its_lobes_where_they_lie_on_each_other() {
+        let mut pile = Pile::new(&level);
+        let one = lobe(DVec2::ZERO);
+        lay(&mut pile, one);
+        let once = pile.relief(DVec2::new(3.0, 4.0));
+        let thickness = one.thickness_at(DVec2::new(3.0, 4.0));
+        assert!(
+            (once - thickness).abs() < 1e-9,
+            "a level datum is fitted exactly"
+        );
+        lay(&mut pile, one);
+        let twice = pile.relief(DVec2::new(3.0, 4.0));
+        // Lowered by two deviations of a surface that has a crease at the rim.
+        assert!(
+            twice < 2.0 * thickness && twice > 1.9 * thickness,
+            "{twice} {thickness}"
+        );
+        assert!(pile.relief(DVec2::new(300.0, 0.0)).abs() < 1e-12);
     }
 
     #[test]

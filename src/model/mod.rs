@@ -42,6 +42,7 @@ mod template;
 mod toml_text;
 mod tree;
 mod values;
+mod warp;
 
 pub use defects::{Defect, Defects};
 pub use domain::Domain;
@@ -55,8 +56,11 @@ pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
+pub use kinds::lobe::LobeSpec;
+pub use kinds::lobes::LobesSpec;
 pub use kinds::made::Bound;
 pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
+pub use kinds::scour::{Place as ScourPlace, ScourSpec, Way as ScourWay};
 pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};
 pub use schema::schema;
@@ -67,6 +71,8 @@ pub use template::{TEMPLATES, Template};
 pub use values::distribution::{
     Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
 };
+pub use values::ends::Ends;
+pub use values::lobe::LobeShape;
 pub use values::profile::Profile;
 pub use values::quantity::Quantity;
 pub use values::selector::{Pick, Selector};

@@ -39,6 +39,8 @@ pub enum Copies {
     One(&'static str),
     /// One in each of its parents; of this, in words, there can be only one.
     OneEach(&'static str),
+    /// One in each of its parents, which has as many members as the feature's `count` says.
+    Members,
 }
 
 /// What a kind may lie in.

@@ -140,6 +140,27 @@ impl Clinoform {
             .then(|| self.surface.point(u, v).z)
     }
 
+    /// The sheet's elevation (m) at a place in plan; beyond its borders that of its tangent planes there.
+    pub fn height(&self, at: DVec2) -> f64 {
+        let DVec2 { x: d, y: q } = self.frame.local(at);
+        let reach = self.frame.reach();
+        let edge = q.clamp(-reach, reach);
+        let (u, v) = self.parameters(d, edge);
+        let (first, last) = self.surface.knots_u().domain();
+        let on = u.clamp(first, last);
+        let of = self.surface.derivatives(on, v, 1);
+        let (along_u, along_v) = (of[1][0], of[0][1]);
+        let height = of[0][0].z + along_u.z * (u - on);
+        if q == edge {
+            return height;
+        }
+        // Along strike at one d: v alone, and u by so much that d stays.
+        let dips = |step: DVec3| step.xy().dot(self.frame.dip());
+        let strikes = along_v.xy().dot(self.frame.strike());
+        let slope = (along_v.z - along_u.z * dips(along_v) / dips(along_u)) / strikes;
+        height + slope * (q - edge)
+    }
+
     /// Whether the sheet meets its base at no angle, as without a toe.
     pub fn is_tangent_to_base(&self) -> bool {
         let height = |u: f64| self.surface.point(u, 0.5).z;
@@ -167,6 +188,10 @@ impl Open for Clinoform {
 
     fn holds(&self, point: DVec3) -> bool {
         Self::holds(self, point)
+    }
+
+    fn height(&self, at: DVec2) -> Option<f64> {
+        Some(Self::height(self, at))
     }
 }
 

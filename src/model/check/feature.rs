@@ -292,7 +292,7 @@ impl Checker<'_> {
             id: draft.id.as_ref().map(|(_, id)| id.clone())?,
             kind: kind?,
             enabled: draft.enabled,
-            count: usize::try_from(draft.count?.1).ok()?,
+            count: instances(draft)?,
             level: 0,
             parent: None,
             facies: facies?,
@@ -301,5 +301,13 @@ impl Checker<'_> {
             preserve,
             place: self.place(draft.node),
         })
+    }
+}
+
+/// How many instances it has in each of its parents.
+fn instances(draft: &Draft) -> Option<usize> {
+    match draft.kind?.copies {
+        Copies::Members => Some(1),
+        Copies::Any | Copies::One(_) | Copies::OneEach(_) => usize::try_from(draft.count?.1).ok(),
     }
 }

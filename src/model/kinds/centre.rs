@@ -1,9 +1,9 @@
 //! Centres: what lies where a point of it is, given or drawn.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::keys::Keys;
-use super::made::Site;
+use super::made::{Frame, Site};
 use crate::model::checker::Reported;
 use crate::model::domain::Domain;
 use crate::model::draft::Draft;
@@ -31,6 +31,94 @@ impl Site<'_> {
                 draws.quantity(z, "center.z")?,
             ));
         }
+        let [low, high] = self.room();
+        let x = draws.uniform(low.x, high.x, "center.x")?;
+        let y = draws.uniform(low.y, high.y, "center.y")?;
+        let z = match self.warp {
+            None => draws.uniform(low.z, high.z, "center.z")?,
+            // Where it comes to lie is said by what it conforms to.
+            Some(_) => low.z,
+        };
+        self.in_parent(DVec3::new(x, y, z))
+    }
+}
+
+impl Site<'_> {
+    /// An elevation that is given under a key; or uniform over the domain, but for lengths (m) above its base and below its top that
+    /// what lies there takes.
+    pub(crate) fn elevation(
+        self,
+        given: Option<&Quantity>,
+        key: &str,
+        [below, above]: [f64; 2],
+        draws: &mut Draws<'_>,
+    ) -> Result<f64, Reason> {
+        if let Some(given) = given {
+            return draws.quantity(given, key);
+        }
+        // What conforms to a surface is built anywhere.
+        if self.warp.is_some() {
+            return Ok(self.domain.z[0]);
+        }
+        let [base, top] = self.domain.z;
+        let (lowest, highest) = (base + below, top - above);
+        if !(lowest <= highest) {
+            let message = format!(
+                "it is {:.2} m high and the domain {:.2} m: make it smaller or give it a `{key}`",
+                below + above,
+                top - base
+            );
+            return Err(("higher than the domain", message));
+        }
+        draws.uniform(lowest, highest, key)
+    }
+
+    /// A place in plan that is given as `center`, and an elevation that is given under a key. What is left out is uniform over the
+    /// domain, as in [`Self::elevation`], or over what the parent has of it: then the place lies in the parent.
+    pub(crate) fn place(
+        self,
+        center: Option<&[Quantity; 2]>,
+        (elevation, key): (Option<&Quantity>, &str),
+        margins: [f64; 2],
+        draws: &mut Draws<'_>,
+    ) -> Result<DVec3, Reason> {
+        if let Some(center) = center {
+            let at = draws.point(center, "center")?;
+            return Ok(at.extend(self.elevation(elevation, key, margins, draws)?));
+        }
+        let [low, high] = self.room();
+        let at = self.anywhere(draws)?;
+        let z = match (elevation, self.interior) {
+            (None, Some(_)) if self.warp.is_none() => draws.uniform(low.z, high.z, key)?,
+            _ => self.elevation(elevation, key, margins, draws)?,
+        };
+        self.in_parent(at.extend(z))
+    }
+
+    /// A place in plan that is uniform over the domain, or over the box of what the parent has of it.
+    pub(crate) fn anywhere(self, draws: &mut Draws<'_>) -> Result<DVec2, Reason> {
+        let [low, high] = self.room();
+        Ok(DVec2::new(
+            draws.uniform(low.x, high.x, "center.x")?,
+            draws.uniform(low.y, high.y, "center.y")?,
+        ))
+    }
+
+    /// Whether it is built on the base of the unit that it lies in.
+    pub(crate) fn has_floor(self) -> bool {
+        self.is_child && self.warp.is_none() && matches!(self.frame, Frame::Unit(_))
+    }
+
+    /// The elevation of that base at a place in plan (m).
+    pub(crate) fn floor(self, at: DVec2) -> Option<f64> {
+        match self.frame {
+            Frame::Unit(base) if self.has_floor() => Some(base.height(at.x, at.y)),
+            _ => None,
+        }
+    }
+
+    /// What the domain and the parent, if it is known, have in common: of a parent outside of the domain all of it.
+    fn room(self) -> [DVec3; 2] {
         let Domain { x, y, z, .. } = *self.domain;
         let corner = |i: usize| DVec3::new(x[i], y[i], z[i]);
         let (mut low, mut high) = (corner(0), corner(1));
@@ -42,22 +130,48 @@ impl Site<'_> {
                 (low, high) = (least, most);
             }
         }
-        let center = DVec3::new(
-            draws.uniform(low.x, high.x, "center.x")?,
-            draws.uniform(low.y, high.y, "center.y")?,
-            draws.uniform(low.z, high.z, "center.z")?,
-        );
+        [low, high]
+    }
+
+    /// A drawn place, if it lies in the parent, or comes to lie there.
+    fn in_parent(self, drawn: DVec3) -> Result<DVec3, Reason> {
+        let lies = match self.warp {
+            None => drawn,
+            Some(warp) => drawn.with_z(warp.height(drawn.truncate())?),
+        };
         match self.interior {
-            Some(parent) if !parent.contains(center) => Err((
+            Some(parent) if !parent.contains(lies) => Err((
                 "centre outside the parent",
-                format!("the centre at {center:.2} is outside the parent; give it a `center`"),
+                format!("the centre at {lies:.2} is outside the parent; give it a `center`"),
             )),
-            _ => Ok(center),
+            _ => Ok(drawn),
         }
     }
 }
 
 impl Keys<'_, '_> {
+    /// A point in plan that may be left out.
+    pub(crate) fn plan_point(
+        &self,
+        field: Option<Field<Any>>,
+        key: &str,
+    ) -> Result<Option<[Quantity; 2]>, Reported> {
+        let Some(field) = field else {
+            return Ok(None);
+        };
+        let read = || {
+            let (node, Any) = field.good()?;
+            let point = Tuple {
+                what: self.what(key),
+                names: ["x", "y"],
+                limits: ANY,
+                remedy: "write the two coordinates in [ ], in metres",
+            };
+            point.read(&self.checker.reader, node)
+        };
+        read().map(Some).ok_or(Reported)
+    }
+
     /// A `center` that may be left out, with its place.
     pub(crate) fn center(&self, field: Option<Field<Any>>) -> Result<Option<Given>, Reported> {
         let Some(field) = field else {

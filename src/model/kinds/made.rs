@@ -9,6 +9,7 @@ use crate::model::domain::Domain;
 use crate::model::draws::Reason;
 use crate::model::interior::Interior;
 use crate::model::values::surface::HorizonSurface;
+use crate::model::warp::Warp;
 
 /// Where one instance is made.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,8 @@ pub(crate) struct Site<'a> {
     pub(crate) interior: Option<&'a Interior>,
     /// Of a base: its surface, as decided among all of them, and what was drawn for it.
     pub(crate) surface: Option<(&'a Horizon, &'a [(String, f64)])>,
+    /// Whether it has a parent.
+    pub(crate) is_child: bool,
     /// What it is placed by: the parent's frame, or that of the domain.
     pub(crate) frame: &'a Frame,
     /// What bounds its unit above, for kinds that ask for it.
@@ -26,6 +29,8 @@ pub(crate) struct Site<'a> {
     /// How far it moves so that contacts which coincide are decided by age (m): less than nothing, and less for younger
     /// ones of the kind; 0 if they are not.
     pub(crate) nudge: f64,
+    /// What it conforms to by itself, not with its parent.
+    pub(crate) warp: Option<&'a Warp>,
 }
 
 impl Site<'_> {
@@ -73,6 +78,8 @@ pub(crate) struct Part {
     pub(crate) facies: Option<usize>,
     /// What was drawn, by parameter.
     pub(crate) drawn: Vec<(String, f64)>,
+    /// Of what may conform to a surface: the elevation in it that comes to lie on that (m); its top if absent.
+    pub(crate) level: Option<f64>,
 }
 
 /// What a volume takes from.
@@ -113,6 +120,7 @@ impl Part {
             from: TakesFrom::Anything,
             facies: None,
             drawn: Vec::new(),
+            level: None,
         }
     }
 }

@@ -11,8 +11,11 @@ pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
+pub(crate) mod lobe;
+pub(crate) mod lobes;
 pub(crate) mod made;
 pub(crate) mod point_bars;
+pub(crate) mod scour;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -26,8 +29,11 @@ use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use lag::LagSpec;
+use lobe::LobeSpec;
+use lobes::LobesSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
+use scour::ScourSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -182,6 +188,12 @@ kinds! {
     Lag(LagSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
+    /// A pit with wings, narrow and deep upstream, wide and shallow downstream.
+    Scour(ScourSpec),
+    /// A turbidite lobe or a mouth bar.
+    Lobe(LobeSpec),
+    /// Lobes that lie on each other, and fill each other's hollows.
+    Lobes(LobesSpec),
 }
 
 impl FeatureKind {

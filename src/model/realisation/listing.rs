@@ -197,7 +197,9 @@ impl<'a> Listing<'a> {
                 // Of what there is only one, the draws are the same wherever it lies.
                 let key = match nature.copies {
                     Copies::One(_) => number.to_string(),
-                    Copies::Any | Copies::OneEach(_) => format!("{numbers}{number}"),
+                    Copies::Any | Copies::OneEach(_) | Copies::Members => {
+                        format!("{numbers}{number}")
+                    }
                 };
                 let top = feature.kind.top().map(|top| self.top(feature, top));
                 let due = Due {

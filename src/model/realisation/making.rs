@@ -36,9 +36,11 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
                 domain: &model.domain,
                 interior: one.parent.and_then(|parent| interiors.get(&parent)),
                 surface: list.surface(one.feature),
+                is_child: one.parent.is_some(),
                 frame: parent.map_or(&domain, |parent| &parent.made.frame),
                 top: one.top.as_ref(),
                 nudge: one.nudge,
+                warp: None,
             };
             Ok((at, build(model, one, &site)?))
         };

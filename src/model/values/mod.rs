@@ -1,8 +1,10 @@
 //! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
 
 pub(crate) mod distribution;
+pub(crate) mod ends;
 pub(crate) mod facies;
 pub(crate) mod limits;
+pub(crate) mod lobe;
 pub(crate) mod profile;
 pub(crate) mod quantity;
 pub(crate) mod selector;

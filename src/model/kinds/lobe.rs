@@ -1,0 +1,164 @@
+//! Lobes: turbidite lobes and mouth bars.
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+
+use super::Kind;
+use super::keys::Keys;
+use super::made::{Frame, Made, Outcome, Part, Site};
+use crate::features::body::Body;
+use crate::features::lobe::{LobeDesign, SUNK};
+use crate::model::draws::{Draws, Reason};
+use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::read::{Any, Field};
+use crate::model::values::limits::{ANY, Limits};
+use crate::model::values::lobe::{LobeShape, thin_rims, with_shape};
+use crate::model::values::quantity::Quantity;
+
+const SINK: Limits = Limits {
+    low: 0.0,
+    high: 0.5,
+    open: false,
+    words: "must lie between 0 and 0.5 (a fraction of the thickness)",
+};
+
+/// A lobe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LobeSpec {
+    /// Its sizes, its direction, and how it tapers.
+    pub shape: LobeShape,
+    /// Whether its place is that of its upstream end, not of its middle.
+    pub by_apex: bool,
+    /// Its place in plan; drawn over the domain, or what the parent has of it, if absent.
+    pub place: Option<[Quantity; 2]>,
+    /// Elevation of what it lies on; that of its unit's base below its middle, or drawn, if absent.
+    pub base: Option<Quantity>,
+    /// How far its base lies below that, as a fraction of its thickness.
+    pub sunk_fraction: Quantity,
+}
+
+/// A lobe: a turbidite lobe or a mouth bar, a body that lies on a level base and thins out to nothing all around.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LobeFile {
+    /// Middle in plan, [x, y]; if neither this nor `apex` is given, uniform over the domain, or, for a child, over what its parent has of it.
+    #[schemars(with = "Option<[Quantity; 2]>")]
+    pub(crate) center: Option<Field<Any>>,
+    /// Upstream end in plan, [x, y], in place of `center`.
+    #[schemars(with = "Option<[Quantity; 2]>")]
+    pub(crate) apex: Option<Field<Any>>,
+    /// Elevation of what it lies on, in metres; if left out, in the unit of a horizon that of the horizon below its middle, else uniform between the base of the domain and its top - thickness, or within the parent.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) base: Option<Field<Any>>,
+    /// How far its base lies below that, so that the two do not coincide, as a fraction of the thickness from 0 to 0.5; 0.02 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) sunk_fraction: Option<Field<Any>>,
+}
+
+impl Kind for LobeSpec {
+    const NATURE: Nature = Nature {
+        name: "lobe",
+        copies: Copies::Any,
+        within: Within::Anything,
+        children: Children::Any,
+        taking: Taking::ByRules,
+        volumes: Volumes::One,
+        is_base: false,
+        placed_by: "set its `base` and its `center` or `apex`",
+        apart: "change `base` or `thickness` of {name} by {by} or more, or move its `center`",
+    };
+
+    fn schema(generator: &mut SchemaGenerator) -> Schema {
+        with_shape(LobeFile::json_schema(generator), generator)
+    }
+
+    fn read(keys: &mut Keys<'_, '_>) -> Option<Self> {
+        let file: LobeFile = keys.table()?;
+        let shape = keys.lobe_shape();
+        if file.center.is_some()
+            && let Some(Field::Good(at, Any)) = &file.apex
+        {
+            keys.checker.reader.wrong(
+                *at,
+                format!("{} has both a `center` and an `apex`", keys.draft.name),
+                "keep one: its middle, or its upstream end",
+            );
+            return None;
+        }
+        let center = keys.plan_point(file.center, "center");
+        let apex = keys.plan_point(file.apex, "apex");
+        let base = keys.optional_quantity(file.base, "base", ANY);
+        let sunk = keys.optional_quantity(file.sunk_fraction, "sunk_fraction", SINK);
+        let (center, apex) = (center.ok()?, apex.ok()?);
+        Some(Self {
+            shape: shape?,
+            by_apex: apex.is_some(),
+            place: center.or(apex),
+            base: base.ok()?,
+            sunk_fraction: sunk.ok()?.unwrap_or(Quantity::Constant(SUNK)),
+        })
+    }
+
+    fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
+        let shape = draws.lobe_shape(&self.shape, "")?;
+        let sunk = draws.quantity(&self.sunk_fraction, "sunk_fraction")? * shape.thickness;
+        let (design, base) = self.placed(site, shape, draws)?;
+        let design = LobeDesign {
+            center: design.center.with_z(base - sunk),
+            ..design
+        };
+        let shell = design
+            .build()
+            .and_then(|lobe| lobe.shell())
+            .map_err(|error| ("impossible lobe", error.to_string()))?;
+        Ok(Made {
+            parts: vec![Part {
+                drawn: draws.taken(),
+                level: Some(base),
+                ..Part::of(Body::Shell(shell))
+            }],
+            frame: Frame::None,
+            decisions: Vec::new(),
+        })
+    }
+
+    fn wants_interior(&self) -> bool {
+        self.place.is_none()
+    }
+
+    /// Lobes thin out to nothing at their rims.
+    fn meshing(made: &[Outcome<'_>]) -> Option<String> {
+        thin_rims(made.iter().map(|one| (one.body, one.name)), "lobes")
+    }
+}
+
+impl LobeSpec {
+    /// The lobe where it is in plan, and the elevation of what it lies on (m).
+    fn placed(
+        &self,
+        site: &Site<'_>,
+        shape: LobeDesign,
+        draws: &mut Draws<'_>,
+    ) -> Result<(LobeDesign, f64), Reason> {
+        let margins = [0.0, shape.thickness];
+        let base = self.base.as_ref();
+        let at = match &self.place {
+            Some(place) => draws.point(place, if self.by_apex { "apex" } else { "center" })?,
+            None if base.is_none() && site.has_floor() => site.anywhere(draws)?,
+            None => {
+                let place = site.place(None, (base, "base"), margins, draws)?;
+                return Ok((shape.with_center(place.truncate()), place.z));
+            }
+        };
+        let design = if self.by_apex {
+            shape.with_apex(at)
+        } else {
+            shape.with_center(at)
+        };
+        let base = match (base, site.floor(design.center.truncate())) {
+            (None, Some(floor)) => floor,
+            _ => site.elevation(base, "base", margins, draws)?,
+        };
+        Ok((design, base))
+    }
+}

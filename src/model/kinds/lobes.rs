@@ -1,0 +1,344 @@
+//! Lobes that lie on each other, and fill each other's hollows: compensational stacking.
+
+use glam::DVec2;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+
+use super::Kind;
+use super::keys::Keys;
+use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
+use crate::features::body::Body;
+use crate::features::conform::{Target, conform};
+use crate::features::lobe::{Lobe, LobeDesign};
+use crate::features::stacking::{Pile, Region, Stack};
+use crate::model::checker::Reported;
+use crate::model::draws::{Draws, Reason};
+use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::read::{Any, Field};
+use crate::model::tree::{NodeId, Value};
+use crate::model::values::limits::{ANY, Limits, NOT_NEGATIVE};
+use crate::model::values::lobe::{LobeShape, thin_rims, with_shape};
+use crate::model::values::quantity::Quantity;
+
+/// The most lobes of one set.
+const MOST_LOBES: u64 = 1000;
+const COMPENSATION: f64 = 5.0;
+/// Nodes of the surface that a lobe lies on, in its width.
+const NODES: f64 = 24.0;
+/// How far a lobe may be from where its floor says, in deviations of the floor.
+const WITHIN: f64 = 0.5;
+/// The same where the floor is exact, as a fraction of the thickness; and how far a lobe is sunk there.
+const LEAST: f64 = 0.005;
+
+const EROSION: Limits = Limits {
+    low: 0.0,
+    high: 1.0,
+    open: false,
+    words: "must lie between 0 and 1 (a fraction of each lobe's thickness)",
+};
+
+/// Lobes that lie on each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LobesSpec {
+    /// How many.
+    pub count: usize,
+    /// The shape of each.
+    pub shape: LobeShape,
+    /// Corners of the polygon in plan in which their middles are; that of the domain if absent.
+    pub region: Option<Vec<[f64; 2]>>,
+    /// How strongly lobes prefer low places: 0 is not at all.
+    pub compensation: Quantity,
+    /// Elevation of what the oldest ones lie on; the base of their unit if absent.
+    pub base: Option<Quantity>,
+    /// How deep each erodes what it lies on, as a fraction of its thickness.
+    pub erosion: Quantity,
+}
+
+/// Lobes that lie on each other (`count` of them, the first one the oldest): each lies on what is there, and prefers the hollows between older ones.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LobesFile {
+    /// Where the middles of lobes may be, in plan: { x = [smaller, larger], y = [smaller, larger] }, or a list of the corners [x, y] of a polygon; that of the domain if left out.
+    #[schemars(schema_with = "region")]
+    #[serde(default)]
+    pub(crate) region: Option<Field<Any>>,
+    /// How strongly lobes prefer low places, 0 (not at all) or more (20: always the lowest one); 5 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) compensation: Option<Field<Any>>,
+    /// Elevation of what the oldest ones lie on, in metres; if left out, the surface of the horizon in whose unit they lie, or the domain's base.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) base: Option<Field<Any>>,
+    /// How deep each lobe erodes what it lies on, as a fraction of its thickness from 0 to 1; 0 (older ones stay whole) if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) erosion: Option<Field<Any>>,
+}
+
+/// A rectangle in plan.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Rectangle")]
+pub(crate) struct RectangleFile {
+    /// [west, east].
+    pub(crate) x: Field<[f64; 2]>,
+    /// [south, north].
+    pub(crate) y: Field<[f64; 2]>,
+}
+
+fn region(generator: &mut SchemaGenerator) -> Schema {
+    let rectangle = RectangleFile::json_schema(generator);
+    let corner = json_schema!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+    let mut schema = rectangle;
+    schema.insert("type".to_owned(), serde_json::json!(["object", "array"]));
+    schema.insert("items".to_owned(), corner.to_value());
+    schema.insert("minItems".to_owned(), 3.into());
+    schema
+}
+
+impl Kind for LobesSpec {
+    const NATURE: Nature = Nature {
+        name: "lobes",
+        copies: Copies::Members,
+        within: Within::Unit {
+            remedy: "lobes lie on the base of a unit: name a horizon, or leave `parent` out for the domain",
+        },
+        children: Children::None {
+            what: "a stack of lobes",
+            instead: "its unit",
+        },
+        taking: Taking::ByKind {
+            how: "lobes fill what is above older ones",
+            remedy: "leave it out; lobes that cut into what they lie on have an `erosion`",
+        },
+        volumes: Volumes::Many {
+            most: MOST_LOBES,
+            one: "lobe",
+        },
+        is_base: false,
+        placed_by: "set its `region` and `base`",
+        apart: "change `thickness` or `region` of {name} a little",
+    };
+
+    fn schema(generator: &mut SchemaGenerator) -> Schema {
+        with_shape(LobesFile::json_schema(generator), generator)
+    }
+
+    fn read(keys: &mut Keys<'_, '_>) -> Option<Self> {
+        let file: LobesFile = keys.table()?;
+        let count = keys.lobes_count();
+        let shape = keys.lobe_shape();
+        let region = keys.region(file.region);
+        let compensation = keys.optional_quantity(file.compensation, "compensation", NOT_NEGATIVE);
+        let base = keys.optional_quantity(file.base, "base", ANY);
+        let erosion = keys.optional_quantity(file.erosion, "erosion", EROSION);
+        let or =
+            |given: Option<Quantity>, default: f64| given.unwrap_or(Quantity::Constant(default));
+        Some(Self {
+            count: count?,
+            shape: shape?,
+            region: region.ok()?,
+            compensation: or(compensation.ok()?, COMPENSATION),
+            base: base.ok()?,
+            erosion: or(erosion.ok()?, 0.0),
+        })
+    }
+
+    fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
+        let Frame::Unit(unit) = site.frame else {
+            return Err(("no unit", "its parent is no horizon".to_owned()));
+        };
+        let compensation = draws.quantity(&self.compensation, "compensation")?;
+        let erosion = draws.quantity(&self.erosion, "erosion")?;
+        let level = match &self.base {
+            Some(base) => Some(draws.quantity(base, "base")?),
+            None => None,
+        };
+        let datum = |at: DVec2| level.unwrap_or_else(|| unit.height(at.x, at.y));
+        let region = self.region_in(site)?;
+        let mut pile = Pile::new(&datum);
+        let mut stack: Option<Stack> = None;
+        let mut parts = Vec::with_capacity(self.count);
+        let mut ends = vec![draws.drawn.len()];
+        for number in 1..=self.count {
+            let shape = draws.lobe_shape(&self.shape, &format!("{number}."))?;
+            let stack = match &mut stack {
+                Some(stack) => stack,
+                // Places as dense as the first one is wide.
+                none => none.insert(
+                    Stack::new(region.clone(), shape.width)
+                        .map_err(|error| ("impossible region", error.to_string()))?,
+                ),
+            };
+            let mut place = |key: &str| draws.uniform(0.0, 1.0, &format!("{number}.{key}"));
+            let chosen = [place("cell")?, place("x")?, place("y")?];
+            let center = stack.next_center(shape.thickness, compensation, chosen);
+            draws.drawn.truncate(draws.drawn.len() - chosen.len());
+            for (key, value) in [("center.x", center.x), ("center.y", center.y)] {
+                draws.drawn.push((format!("{number}.{key}"), value));
+            }
+            let (lobe, body) = laid(shape.with_center(center), &mut pile, erosion)
+                .map_err(|message| ("impossible lobe", format!("lobe {number}: {message}")))?;
+            stack.lay(&lobe, |at| pile.relief(at));
+            ends.push(draws.drawn.len());
+            parts.push(Part {
+                name: format!("-{number}"),
+                from: if erosion > 0.0 {
+                    TakesFrom::Anything
+                } else {
+                    TakesFrom::ParentItself
+                },
+                ..Part::of(body)
+            });
+        }
+        let drawn = draws.taken();
+        for (number, part) in parts.iter_mut().enumerate() {
+            let prefix = format!("{}.", number + 1);
+            let own = drawn[ends[number]..ends[number + 1]].iter();
+            let own = own.map(|(key, value)| {
+                let key = key.strip_prefix(&prefix).unwrap_or(key);
+                (key.to_owned(), *value)
+            });
+            part.drawn = drawn[..ends[0]].iter().cloned().chain(own).collect();
+        }
+        Ok(Made {
+            parts,
+            frame: Frame::None,
+            decisions: Vec::new(),
+        })
+    }
+
+    /// What `7` is.
+    fn volume_name(&self, rest: &str) -> Option<VolumeName> {
+        let number = rest.parse::<usize>().ok()?;
+        let is_one = (1..=self.count).contains(&number) && number.to_string() == rest;
+        is_one.then_some(VolumeName::Volume)
+    }
+
+    /// Lobes thin out to nothing at their rims.
+    fn meshing(made: &[Outcome<'_>]) -> Option<String> {
+        thin_rims(made.iter().map(|one| (one.body, one.name)), "stacked lobes")
+    }
+}
+
+/// A lobe laid on what is there, which it is part of from then on; and its body.
+fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, Body), String> {
+    let lobe = design.build().map_err(|error| error.to_string())?;
+    let plan = lobe.plan();
+    let margin = 0.02 * (plan[1] - plan[0]);
+    let floor = pile
+        .floor([plan[0] - margin, plan[1] + margin], design.width / NODES)
+        .map_err(|error| error.to_string())?
+        .lowered_by(LEAST * design.thickness);
+    let shell = lobe.eroding(erosion).map_err(|error| error.to_string())?;
+    let target = Target {
+        height: &|at| Some(floor.height(at)),
+        reference: design.center.z,
+        depth: 0.0,
+    };
+    let tolerance = WITHIN * floor.lowered() / 2.0;
+    let made = conform(&shell, &target, tolerance).map_err(|error| error.to_string())?;
+    pile.lay(lobe, floor);
+    Ok((lobe, Body::Shell(made.shell)))
+}
+
+impl LobesSpec {
+    /// Where the middles of lobes may be.
+    fn region_in(&self, site: &Site<'_>) -> Result<Region, Reason> {
+        let region = match &self.region {
+            Some(corners) => Region::new(corners.iter().map(|p| DVec2::from_array(*p)).collect()),
+            None => {
+                let [x, y] = [site.domain.x, site.domain.y];
+                Region::rectangle(DVec2::new(x[0], y[0]), DVec2::new(x[1], y[1]))
+            }
+        };
+        region.map_err(|error| ("impossible region", error.to_string()))
+    }
+}
+
+impl Keys<'_, '_> {
+    /// How many lobes there are.
+    fn lobes_count(&self) -> Option<usize> {
+        let (node, count) = self.draft.count?;
+        let Some(node) = node else {
+            self.checker
+                .reader
+                .missing(self.draft.node, &self.draft.name, "count", "count = 20");
+            return None;
+        };
+        if count > MOST_LOBES {
+            self.checker.reader.wrong(
+                node,
+                format!("{} has {count} lobes", self.draft.name),
+                format!("write a number from 1 to {MOST_LOBES}"),
+            );
+            return None;
+        }
+        usize::try_from(count).ok()
+    }
+
+    /// The corners of a region that may be left out.
+    fn region(&self, field: Option<Field<Any>>) -> Result<Option<Vec<[f64; 2]>>, Reported> {
+        let Some(field) = field else {
+            return Ok(None);
+        };
+        let read = || {
+            let (node, Any) = field.good()?;
+            match self.checker.reader.tree.value(node) {
+                Value::Table(_) => self.rectangle(node),
+                Value::List(corners) => {
+                    let corners: Vec<Option<[f64; 2]>> = corners
+                        .iter()
+                        .map(|corner| self.checker.reader.read(*corner))
+                        .collect();
+                    let corners: Vec<[f64; 2]> = corners.into_iter().collect::<Option<_>>()?;
+                    let points = corners.iter().map(|p| DVec2::from_array(*p)).collect();
+                    if let Err(error) = Region::new(points) {
+                        self.checker.reader.wrong(
+                            node,
+                            format!("{}: {error}", self.what("region")),
+                            "write the corners of a polygon, in order: [[0, 0], [1000, 0], [500, 800]]",
+                        );
+                        return None;
+                    }
+                    Some(corners)
+                }
+                _ => {
+                    let found = self.checker.reader.tree.describe(node);
+                    self.checker.reader.wrong(
+                        node,
+                        format!("expected a rectangle or a polygon for {}, found {found}", self.what("region")),
+                        "write { x = [0, 1000], y = [0, 800] }, or the corners [[0, 0], [1000, 0], [500, 800]]",
+                    );
+                    None
+                }
+            }
+        };
+        read().map(Some).ok_or(Reported)
+    }
+
+    /// The corners of a rectangle.
+    fn rectangle(&self, node: NodeId) -> Option<Vec<[f64; 2]>> {
+        let reader = &self.checker.reader;
+        let what = self.what("region");
+        let file: RectangleFile = reader.table(node)?;
+        reader.close(node, &what);
+        let range = |field: Field<[f64; 2]>, key: &str| {
+            let (at, [low, high]) =
+                reader.need(field, node, &what, key, &format!("{key} = [0, 1000]"))?;
+            if low >= high {
+                let what = format!("the `{key}` of {what}");
+                self.checker
+                    .no_range(at, &what, [low, high], "write [smaller, larger]");
+                return None;
+            }
+            Some([low, high])
+        };
+        let (x, y) = (range(file.x, "x"), range(file.y, "y"));
+        let ([west, east], [south, north]) = (x?, y?);
+        Some(vec![
+            [west, south],
+            [east, south],
+            [east, north],
+            [west, north],
+        ])
+    }
+}

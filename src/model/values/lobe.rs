@@ -1,0 +1,164 @@
+//! The shape of a lobe: its sizes, its direction, and how it tapers.
+
+use glam::DVec3;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::limits::{AZIMUTH, Limits, POSITIVE};
+use super::quantity::Quantity;
+use crate::features::body::{Body, Role};
+use crate::features::lobe::LobeDesign;
+use crate::model::draws::{Draws, Reason};
+use crate::model::kinds::keys::Keys;
+use crate::model::read::{Any, Field};
+use crate::nurbs::Surface;
+
+/// Length in widths, if the width is left out.
+const ASPECT: f64 = 1.5;
+/// An angle at which tetrahedra are not flat (degrees).
+const STEEP: f64 = 20.0;
+const TAPER: f64 = 0.5;
+const SKEW: f64 = 0.3;
+
+const SHAPE: Limits = Limits {
+    low: -0.9,
+    high: 0.9,
+    open: false,
+    words: "must lie between -0.9 and 0.9",
+};
+
+/// The shape of a lobe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LobeShape {
+    /// Length along the axis.
+    pub length: Quantity,
+    /// Width across; two thirds of the length if absent.
+    pub width: Option<Quantity>,
+    /// Greatest thickness.
+    pub thickness: Quantity,
+    /// Direction of the axis, downstream, clockwise from north, degrees.
+    pub azimuth_deg: Quantity,
+    /// How much wider it is downstream.
+    pub taper: Quantity,
+    /// How much thicker it is upstream.
+    pub skew: Quantity,
+}
+
+/// The keys of a lobe's shape.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LobeShapeFile {
+    /// Length along the axis in metres, above 0.
+    #[schemars(with = "Quantity")]
+    pub(crate) length: Field<Any>,
+    /// Width across in metres, above 0: that of the ellipse without taper; two thirds of the length if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) width: Option<Field<Any>>,
+    /// Greatest thickness in metres, above 0.
+    #[schemars(with = "Quantity")]
+    pub(crate) thickness: Field<Any>,
+    /// Direction of the axis, downstream, in degrees, clockwise from north.
+    #[schemars(with = "Quantity")]
+    pub(crate) azimuth_deg: Field<Any>,
+    /// How much wider it is downstream than upstream, between -0.9 and 0.9 (0 is an ellipse in plan); 0.5 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) taper: Option<Field<Any>>,
+    /// How much thicker it is upstream than downstream, between -0.9 and 0.9; 0.3 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) skew: Option<Field<Any>>,
+}
+
+impl Keys<'_, '_> {
+    /// The keys of a lobe's shape in the feature's own table.
+    pub(crate) fn lobe_shape(&self) -> Option<LobeShape> {
+        let file: LobeShapeFile = self.table()?;
+        let length = self.quantity(file.length, "length", "length = 1350", POSITIVE);
+        let width = self.optional_quantity(file.width, "width", POSITIVE);
+        let thickness = self.quantity(file.thickness, "thickness", "thickness = 4", POSITIVE);
+        let azimuth = self.quantity(file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
+        let taper = self.optional_quantity(file.taper, "taper", SHAPE);
+        let skew = self.optional_quantity(file.skew, "skew", SHAPE);
+        let or =
+            |given: Option<Quantity>, default: f64| given.unwrap_or(Quantity::Constant(default));
+        Some(LobeShape {
+            length: length?,
+            width: width.ok()?,
+            thickness: thickness?,
+            azimuth_deg: azimuth?,
+            taper: or(taper.ok()?, TAPER),
+            skew: or(skew.ok()?, SKEW),
+        })
+    }
+}
+
+impl Draws<'_> {
+    /// The shape drawn, of a lobe that is nowhere yet; the parameters' names begin with a prefix.
+    pub(crate) fn lobe_shape(
+        &mut self,
+        shape: &LobeShape,
+        prefix: &str,
+    ) -> Result<LobeDesign, Reason> {
+        let mut draw =
+            |quantity: &Quantity, key: &str| self.quantity(quantity, &format!("{prefix}{key}"));
+        let length = draw(&shape.length, "length")?;
+        Ok(LobeDesign {
+            center: DVec3::ZERO,
+            length,
+            width: match &shape.width {
+                Some(width) => draw(width, "width")?,
+                None => length / ASPECT,
+            },
+            thickness: draw(&shape.thickness, "thickness")?,
+            azimuth: draw(&shape.azimuth_deg, "azimuth_deg")?.to_radians(),
+            taper: draw(&shape.taper, "taper")?,
+            skew: draw(&shape.skew, "skew")?,
+        })
+    }
+}
+
+/// A kind's own table with the keys of a lobe's shape.
+pub(crate) fn with_shape(own: Schema, generator: &mut SchemaGenerator) -> Schema {
+    let shape = LobeShapeFile::json_schema(generator);
+    let mut own = own;
+    for list in ["properties", "required"] {
+        let Some(more) = shape.get(list).cloned() else {
+            continue;
+        };
+        match (own.get_mut(list), more) {
+            (Some(Value::Object(own)), Value::Object(more)) => own.extend(more),
+            (Some(Value::Array(own)), Value::Array(more)) => own.extend(more),
+            (_, more) => {
+                own.insert(list.to_owned(), more);
+            }
+        }
+    }
+    own
+}
+
+/// What is to be said of lobes, with their names, when they are meshed: at what angle the thinnest rim opens.
+pub(crate) fn thin_rims<'a>(
+    lobes: impl Iterator<Item = (&'a Body, &'a str)>,
+    what: &str,
+) -> Option<String> {
+    let opening = |body: &Body| {
+        let Body::Shell(shell) = body else {
+            return None;
+        };
+        let of = |role: Role| shell.sheets().iter().filter(move |sheet| sheet.0 == role);
+        let pairs = of(Role::Top).zip(of(Role::Base));
+        let angles = pairs.map(|((_, top), (_, base))| {
+            let (u, (from, to)) = (top.knots_u().domain().1, top.knots_v().domain());
+            let outward = |sheet: &Surface| sheet.derivatives(u, f64::midpoint(from, to), 1)[1][0];
+            outward(top).angle_between(outward(base))
+        });
+        angles.min_by(f64::total_cmp)
+    };
+    let (angle, name) = lobes
+        .filter_map(|(body, name)| Some((opening(body)?.to_degrees(), name)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let stretch = (STEEP / angle).ceil();
+    Some(format!(
+        "{what} thin out to nothing at their rims, at {angle:.1}° ({name}), and tetrahedra there are as flat. Where that matters, stretch the          model {stretch} times upwards before it is meshed, and the mesh back after"
+    ))
+}

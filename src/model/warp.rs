@@ -1,0 +1,92 @@
+//! Warps: the change by which bodies conform to a surface (\[J19\] §2.5.3, Fig. 9).
+//!
+//! A body is built about a level of its own. Then every place of it moves vertically by the surface's elevation there, less
+//! that level and a depth: so the level comes to lie as far below the surface. What lies in the body moves as it does.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::draws::Reason;
+use crate::features::body::Body;
+use crate::features::conform::{ConformError, Target, conform};
+use crate::features::shell::{Shell, ShellError};
+use crate::features::side::Side;
+
+/// What a body conforms to.
+#[derive(Clone, Debug)]
+pub(crate) struct Warp {
+    /// The surface, as it was before anything cut it.
+    pub(crate) surface: Arc<Side>,
+    /// What it is called.
+    pub(crate) name: String,
+    /// How far below the surface the body's level comes to lie (m).
+    pub(crate) depth: f64,
+    /// The level in the body (m); the body's own if absent.
+    pub(crate) reference: Option<f64>,
+    /// How far the body may be from where it should be (m); by its size if absent.
+    pub(crate) tolerance: Option<f64>,
+}
+
+/// How far a body may be from where it should be, as a fraction of its height …
+const TOLERANCE: f64 = 0.01;
+/// … and at most (m).
+const MOST: f64 = 0.05;
+
+/// A body that conforms.
+pub(crate) struct Warped {
+    pub(crate) body: Body,
+    /// How far it is from where it should be, at most (m).
+    pub(crate) deviation: f64,
+}
+
+impl Warp {
+    /// The elevation at which a body's level comes to lie at a place in plan (m).
+    pub(crate) fn height(&self, at: DVec2) -> Result<f64, Reason> {
+        let height = self.surface.height(at);
+        height.map(|height| height - self.depth).ok_or_else(|| {
+            let message = format!(
+                "{} has no elevation at x = {:.1} m, y = {:.1} m",
+                self.name, at.x, at.y
+            );
+            ("nothing to conform to", message)
+        })
+    }
+
+    /// A body that was built about a level (m), where it conforms.
+    pub(crate) fn apply(&self, body: &Body, level: f64) -> Result<Warped, Reason> {
+        let wrong = |error: ConformError| {
+            let reason = match error {
+                ConformError::NoHeight { .. } => "nothing to conform to",
+                _ => "does not conform",
+            };
+            (
+                reason,
+                format!("it does not conform to {}: {error}", self.name),
+            )
+        };
+        let (low, high) = body.bounds();
+        let tolerance = self
+            .tolerance
+            .unwrap_or((TOLERANCE * (high.z - low.z)).min(MOST));
+        let shell = closed(body).map_err(|error| wrong(error.into()))?;
+        let target = Target {
+            height: &|at| self.surface.height(at),
+            reference: self.reference.unwrap_or(level),
+            depth: self.depth,
+        };
+        let made = conform(&shell, &target, tolerance).map_err(wrong)?;
+        Ok(Warped {
+            body: Body::Shell(made.shell),
+            deviation: made.deviation,
+        })
+    }
+}
+
+/// The shell of a closed body.
+fn closed(body: &Body) -> Result<Shell, ShellError> {
+    match body {
+        Body::Shell(shell) => Ok(shell.clone()),
+        Body::Trough(_) | Body::Ellipsoid(_) | Body::Side(_) => Shell::new(body.sheets()?),
+    }
+}
