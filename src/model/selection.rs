@@ -92,7 +92,7 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     if feature.id == name {
         return Some(Named::Volume);
     }
-    let is_in_parent = |path: &str| match feature.parent.map(|parent| &model.features[parent]) {
+    let is_in_parent = |path: &str| match host(model, feature) {
         None => path.is_empty(),
         Some(parent) => matches!(names(model, parent, path), Some(Named::Volume)),
     };
@@ -127,6 +127,11 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     (is_own && is_in_parent(path)).then_some(Named::Volume)
 }
 
+/// The feature that another one goes with.
+fn host<'m>(model: &'m Model, feature: &Feature) -> Option<&'m Feature> {
+    Some(&model.features[feature.host()?.feature()])
+}
+
 /// A volume's number, written as the program writes it.
 fn number(digits: &str) -> Option<usize> {
     let number = digits.parse::<usize>().ok()?;
@@ -135,9 +140,8 @@ fn number(digits: &str) -> Option<usize> {
 
 /// What stands before a feature's own name in those of its volumes; of a feature with many parents, of the first.
 fn path(model: &Model, feature: &Feature) -> String {
-    let parent = feature.parent.map(|parent| &model.features[parent]);
-    parent.map_or(String::new(), |parent| {
-        format!("{}{}/", path(model, parent), first_volume(parent))
+    host(model, feature).map_or(String::new(), |host| {
+        format!("{}{}/", path(model, host), first_volume(host))
     })
 }
 

@@ -15,6 +15,7 @@ mod files;
 mod lags;
 mod overrides;
 mod point_bars;
+mod references;
 mod shorefaces;
 
 use clinothem::model::{Defects, Format, Model, Source};

@@ -94,6 +94,9 @@ pub struct VolumeEntry {
     pub color: String,
     /// The volume that it is a child of.
     pub parent: Option<String>,
+    /// The volume that it goes along, if it is a companion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub along: Option<String>,
     /// Rock properties of its facies; permeability in mD.
     pub properties: BTreeMap<String, serde_json::Value>,
     /// What was drawn for it, by parameter.

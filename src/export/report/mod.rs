@@ -29,7 +29,10 @@ impl Report {
             level,
         } = parts;
         let domain = plan.extent.volume();
+        // What is a piece of an older volume is told of with that.
+        let is_whole = |volume: &usize| realisation.rules.whole(*volume) == *volume;
         let volumes: Vec<VolumeEntry> = (0..realisation.volumes.len())
+            .filter(is_whole)
             .map(|volume| volume_entry(parts, volume))
             .collect();
         let facies: Vec<FaciesEntry> = model
@@ -52,6 +55,7 @@ impl Report {
         let outside = remarks::outside_parents(realisation);
         notes.extend(outside.iter().map(|remark| remark.text.clone()));
         let empty: Vec<usize> = (0..realisation.volumes.len())
+            .filter(is_whole)
             .filter(|volume| assembly.measured.pieces_of(*volume).is_empty())
             .collect();
         let empty = remarks::say_empty(realisation, &empty, remarks::Known::BySolids, &outside);
@@ -177,6 +181,9 @@ fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {
         parent: rules
             .parent
             .map(|parent| realisation.volumes[parent].name.clone()),
+        along: rules
+            .along
+            .map(|along| realisation.volumes[along].name.clone()),
         properties: facies.map(properties).unwrap_or_default(),
         drawn,
         volume_m3: measured.size_of(volume),

@@ -14,8 +14,9 @@ use crate::features::profile::Profile as Along;
 use crate::features::reach::Reach;
 use crate::model::domain::Domain;
 use crate::model::draws::{Draws, Reason, diagonal};
-use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
+use crate::model::references::Reference;
 use crate::model::tree::{NodeId, quoted};
 use crate::model::values::limits::{ANY, ASYMMETRY, BANK_ANGLE, POSITIVE};
 use crate::model::values::profile::Profile;
@@ -119,6 +120,8 @@ impl Kind for ChannelSpec {
         apart: "change `top`, `depth` or `width` of {name} by {by} or more, or its trajectory",
     };
 
+    const GIVES: Gives = Gives::Way;
+
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         ChannelFile::json_schema(generator)
     }
@@ -146,7 +149,7 @@ impl Kind for ChannelSpec {
         let example = "trajectory = { kind = \"line\", azimuth_deg = 45 }";
         let trajectory = keys
             .need(file.trajectory, "trajectory", example)
-            .and_then(|(node, Any)| Some((node, keys.checker.trajectory(node, keys.draft)?)));
+            .and_then(|(node, Any)| Some((node, keys.checker.trajectory(node, keys.family)?)));
         if let (Some((node, trajectory)), Some(domain)) = (&trajectory, keys.domain) {
             let name = &keys.draft.name;
             keys.checker
@@ -191,7 +194,7 @@ impl Kind for ChannelSpec {
             None => any_top(depth.range().1, domain, draws)?,
         };
         let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
-        let trajectory = trajectory::trajectory(&self.trajectory, domain, overshoot, draws)?;
+        let trajectory = trajectory::trajectory(&self.trajectory, site, overshoot, draws)?;
         let design = ChannelDesign {
             width,
             depth,
@@ -214,6 +217,10 @@ impl Kind for ChannelSpec {
             frame: Frame::Along(Arc::new(reach)),
             ..Made::body(Body::Trough(trough), draws.taken())
         })
+    }
+
+    fn refers(&self) -> Vec<&Reference> {
+        self.trajectory.refers()
     }
 
     /// Channels thin out to nothing at their banks, and leave strips of what they cut: facets on both sides cut each other

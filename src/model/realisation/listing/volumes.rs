@@ -40,13 +40,19 @@ impl Volumes {
                 decisions: Vec::new(),
             },
             firsts: Vec::with_capacity(built.len()),
+            ends: Vec::with_capacity(built.len()),
             units: BTreeMap::new(),
             open: BACKGROUND,
         };
         for (due, built) in list.due.iter().zip(built) {
-            adding.add(due, built)?;
+            if due.takes_part {
+                adding.add(due, built)?;
+            } else {
+                adding.firsts.push(None);
+                adding.ends.push(adding.volumes.rules.len());
+            }
         }
-        Ok(adding.volumes)
+        Ok(adding.along(&list.due))
     }
 }
 
@@ -57,8 +63,10 @@ struct Adding<'a> {
     /// By feature: the base that it lies nowhere below.
     above: &'a BTreeMap<usize, usize>,
     volumes: Volumes,
-    /// By instance so far, its first volume.
-    firsts: Vec<usize>,
+    /// By instance so far, its first volume; none of what takes no part.
+    firsts: Vec<Option<usize>>,
+    /// By instance so far, what comes after its volumes.
+    ends: Vec<usize>,
     /// The volumes of those bases so far that take part, by feature.
     units: BTreeMap<usize, usize>,
     /// The unit above the last base so far.
@@ -76,7 +84,7 @@ impl Adding<'_> {
             .decisions
             .extend(decisions.map(|text| format!("{} {text}", feature.id)));
         self.check_left_out(due, nature, &parts)?;
-        let parent = due.parent.map(|parent| self.firsts[parent]);
+        let parent = due.parent.and_then(|parent| self.firsts[parent]);
         let above = self.above.get(&due.feature);
         let above = above.and_then(|below| self.units.get(below)).copied();
         let rejected = match nature.volumes {
@@ -84,7 +92,8 @@ impl Adding<'_> {
             // They are counted by feature alone.
             nature::Volumes::Many { .. } => 0,
         };
-        self.firsts.push(self.volumes.rules.len());
+        let first = self.volumes.rules.len();
+        self.firsts.push(Some(first));
         // By part, its volume, or of what takes no part what it would take from.
         let mut places: Vec<Option<usize>> = Vec::with_capacity(parts.len());
         for part in parts {
@@ -104,6 +113,11 @@ impl Adding<'_> {
             rules.from = from;
             rules.above = above;
             rules.preserve |= part.from == TakesFrom::ParentItself;
+            // Parts of one name are one volume.
+            rules.piece_of = self.volumes.rules[first..]
+                .iter()
+                .position(|other| other.name == rules.name)
+                .map(|at| first + at);
             if let Some(facies) = part.facies {
                 rules.facies.clone_from(&self.model.facies[facies].name);
             }
@@ -120,7 +134,20 @@ impl Adding<'_> {
                 self.units.insert(due.feature, volume);
             }
         }
+        self.ends.push(self.volumes.rules.len());
         Ok(())
+    }
+
+    /// The volumes, of which companions now know what they go along: it comes after them.
+    fn along(mut self, due: &[Due]) -> Volumes {
+        for (at, due) in due.iter().enumerate() {
+            if let (Some(first), Some(along)) = (self.firsts[at], due.along) {
+                for rules in &mut self.volumes.rules[first..self.ends[at]] {
+                    rules.along = self.firsts[along];
+                }
+            }
+        }
+        self.volumes
     }
 
     /// Whether a part takes part: neither it nor what it is a part of is left out.
@@ -177,6 +204,8 @@ impl Adding<'_> {
             preserve: feature.preserve,
             from: None,
             above: None,
+            piece_of: None,
+            along: None,
         }
     }
 }
@@ -195,5 +224,7 @@ fn background(model: &Model) -> VolumeRules {
         preserve: false,
         from: None,
         above: None,
+        piece_of: None,
+        along: None,
     }
 }

@@ -9,7 +9,8 @@ use serde::Deserialize;
 use super::quantity::Quantity;
 use crate::model::expression::Expression;
 use crate::model::read::{Any, Field};
-use crate::model::tables::by_kind;
+use crate::model::references::Reference;
+use crate::model::tables::{by_kind, or_form};
 use crate::nurbs::interpolate::Parametrization;
 
 pub(crate) use draw::trajectory;
@@ -61,6 +62,13 @@ pub enum TrajectorySpec {
         /// Length along the mean direction; right across the domain if absent.
         length: Option<Quantity>,
     },
+    /// That of another feature, or beside it.
+    Like {
+        /// The other feature.
+        other: Reference,
+        /// How far to the right of it, looking along it.
+        offset: Quantity,
+    },
     /// Two formulas in `t`.
     Parametric {
         /// x of t.
@@ -72,7 +80,17 @@ pub enum TrajectorySpec {
     },
 }
 
-/// What every trajectory has.
+impl TrajectorySpec {
+    /// What it refers to.
+    pub(crate) fn refers(&self) -> Vec<&Reference> {
+        match self {
+            Self::Like { other, .. } => vec![other],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// What every trajectory has that is like no other.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TrajectoryFile {
@@ -141,6 +159,17 @@ pub(crate) struct SineGeneratedFile {
     pub(crate) length: Option<Field<Any>>,
 }
 
+/// The trajectory of another feature, or one beside it; in place of `kind`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LikeFile {
+    /// Name of another feature whose trajectory it has: its id, or that of one of its instances, as "valley-2".
+    pub(crate) like: Field<String>,
+    /// How far to the right of it, looking along it, in metres; 0 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) offset: Option<Field<Any>>,
+}
+
 /// Two formulas in `t`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -161,7 +190,11 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    by_kind(&common, &kinds)
+    or_form(
+        by_kind(&common, &kinds),
+        "like",
+        &LikeFile::json_schema(generator),
+    )
 }
 
 fn parametrization(_: &mut SchemaGenerator) -> Schema {
