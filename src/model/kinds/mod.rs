@@ -4,15 +4,20 @@
 //! be said of it when it is meshed. Its geometry is in `features`, which knows no model file. A kind says what it is by its
 //! [`Nature`]; everything else of the program asks that, and never for the kind itself.
 
+pub(crate) mod body;
 mod centre;
 pub(crate) mod channel;
+pub(crate) mod clinoform;
 pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
 pub(crate) mod made;
+pub(crate) mod placed;
 pub(crate) mod point_bars;
+pub(crate) mod sheet;
+mod unit;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -20,7 +25,9 @@ use super::draft::FeatureFile;
 use super::draws::{Draws, Reason};
 use super::nature::Nature;
 use super::tables::by_kind;
+use body::BodySpec;
 use channel::ChannelSpec;
+use clinoform::ClinoformSpec;
 use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
@@ -28,6 +35,7 @@ use keys::Keys;
 use lag::LagSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
+use sheet::SheetSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -178,10 +186,16 @@ kinds! {
     Horizon(HorizonSpec),
     /// Clinoforms that divide a horizon's unit.
     Clinoforms(ClinoformsSpec),
+    /// Clinoforms of one template, along any crest.
+    Clinoform(ClinoformSpec),
     /// The lowest part of a channel's fill.
     Lag(LagSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
+    /// A surface through the domain from control nets of one's own.
+    Sheet(SheetSpec),
+    /// A closed body from control nets of one's own.
+    Body(BodySpec),
 }
 
 impl FeatureKind {

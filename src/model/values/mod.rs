@@ -3,6 +3,7 @@
 pub(crate) mod distribution;
 pub(crate) mod facies;
 pub(crate) mod limits;
+pub(crate) mod nets;
 pub(crate) mod profile;
 pub(crate) mod quantity;
 pub(crate) mod selector;
