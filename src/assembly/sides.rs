@@ -7,6 +7,7 @@
 
 use glam::{DVec3, Vec3Swizzles};
 
+use super::joined::{self, JoinedError};
 use super::kernel::{Curve, Edge, EdgeUse, Face, Surface, Topology};
 use super::splines::{EXACT, along_u, along_v, curve, spline};
 use crate::features::frame::ClinoformFrame;
@@ -25,6 +26,9 @@ pub(crate) enum SideError {
     /// The horizon has no wider sheet.
     #[error(transparent)]
     Horizon(#[from] HorizonError),
+    /// Its sheets make no topology.
+    #[error(transparent)]
+    Joined(#[from] JoinedError),
     /// A wall is no surface.
     #[error("a wall of its closed shell: {0}")]
     Wall(#[from] SurfaceError),
@@ -49,6 +53,7 @@ pub(crate) fn shell(
             (low - margin).with_z(floor),
             (high + margin).with_z(roof),
         )),
+        Ends::Closed(shell) => Ok(joined::shell(shell)?),
         Ends::Plan(sheet) => above(sheet.horizon(), [low, high], OVERSHOOT + stagger, roof),
         Ends::Hanging {
             frame,

@@ -13,7 +13,9 @@ use super::body::Role;
 use super::nudge::Nudge;
 use super::side::points_bounds;
 use crate::nurbs::enclosure::{Enclosure, EnclosureError};
-use crate::nurbs::{ElevateError, KnotError, KnotVector, RefineError, Surface, SurfaceError};
+use crate::nurbs::{
+    ElevateError, ExtendError, KnotError, KnotVector, RefineError, Surface, SurfaceError,
+};
 
 /// Why sheets make no closed shell.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -30,6 +32,9 @@ pub enum ShellError {
     /// A degree cannot be elevated.
     #[error(transparent)]
     Elevate(#[from] ElevateError),
+    /// A sheet cannot go on.
+    #[error(transparent)]
+    Extend(#[from] ExtendError),
     /// The sheets leave gaps.
     #[error("its sheets do not join: {0}")]
     Open(#[from] EnclosureError),
@@ -158,52 +163,12 @@ impl Tube {
         let [one, other] = &self.sheets;
         Ok(Self {
             sheets: [
-                continued(one, before, after)?,
-                continued(other, before, after)?,
+                one.extended_v([before, after])?,
+                other.extended_v([before, after])?,
             ],
             ..self.clone()
         })
     }
-}
-
-/// A polynomial surface with straight pieces of v before and after it, along its own tangents. The surface as it was is a part of
-/// it, control points and all: its ends become knots of multiplicity q.
-fn continued(surface: &Surface, before: f64, after: f64) -> Result<Surface, ShellError> {
-    let knots = surface.knots_v();
-    let (q, count) = (knots.degree(), knots.count());
-    let old = knots.as_slice();
-    let (start, end) = knots.domain();
-    let mut along = old[1..old.len() - 1].to_vec();
-    let mut rows: Vec<Vec<DVec3>> = surface.net().chunks(count).map(<[DVec3]>::to_vec).collect();
-    // The speed at a clamped end is q times the first leg over the knot span.
-    if before > 0.0 {
-        let step = before / (old[q + 1] - old[q]);
-        for row in &mut rows {
-            let (first, leg) = (row[0], row[0] - row[1]);
-            let beyond = (1..=q).rev().map(|k| first + leg * (step * k as f64));
-            *row = beyond.chain(row.iter().copied()).collect();
-        }
-        along.splice(0..0, vec![start - before; q + 1]);
-    } else {
-        along.insert(0, start);
-    }
-    if after > 0.0 {
-        let step = after / (old[count] - old[count - 1]);
-        for row in &mut rows {
-            let n = row.len();
-            let (last, leg) = (row[n - 1], row[n - 1] - row[n - 2]);
-            row.extend((1..=q).map(|k| last + leg * (step * k as f64)));
-        }
-        along.extend(vec![end + after; q + 1]);
-    } else {
-        along.push(end);
-    }
-    let along = KnotVector::new(q, along)?;
-    Ok(Surface::new(
-        surface.knots_u().clone(),
-        along,
-        rows.concat(),
-    )?)
 }
 
 #[cfg(test)]

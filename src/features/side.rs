@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use super::body::Role;
 use super::frame::ClinoformFrame;
 use super::horizon::{Horizon, HorizonError};
+use super::shell::Shell;
 use crate::nurbs::Surface;
 
 /// What lies on the younger side of open sheets.
@@ -45,6 +46,8 @@ pub enum Ends {
     NoSheet,
     /// They are heights over the plan, and go on in all directions.
     Plan(Arc<HorizonSheet>),
+    /// They are part of a shell that closes far outside of the domain.
+    Closed(Shell),
     /// They hang side by side along the strike of a frame; what they hold lies basinward.
     Hanging {
         /// The frame.
@@ -144,7 +147,7 @@ impl Side {
     pub fn plan(&self) -> Option<&HorizonSheet> {
         match &self.ends {
             Ends::Plan(sheet) => Some(sheet),
-            Ends::NoSheet | Ends::Hanging { .. } => None,
+            Ends::NoSheet | Ends::Closed(_) | Ends::Hanging { .. } => None,
         }
     }
 

@@ -21,6 +21,7 @@ mod curve;
 mod derive;
 mod elevate;
 pub mod enclosure;
+mod extend;
 mod function;
 pub mod interpolate;
 mod knots;
@@ -36,6 +37,7 @@ mod surface;
 
 pub use closest::{Closest, ClosestOnSurface};
 pub use curve::{Curve, CurveError};
+pub use extend::ExtendError;
 pub use function::Function;
 pub(crate) use function::{PROBES, spans_probed};
 pub use knots::{Basis, ElevateError, KnotError, KnotVector, MAX_DEGREE};

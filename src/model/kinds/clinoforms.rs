@@ -17,7 +17,6 @@ use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
-use crate::model::suggest;
 use crate::model::tree::quoted;
 use crate::model::values::limits::{AZIMUTH, CONCAVE, FRACTION, POSITIVE};
 use crate::model::values::quantity::Quantity;
@@ -118,14 +117,6 @@ pub(crate) struct ClinoformsFile {
 
 fn interfingering(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": ["smooth", "zigzag"] })
-}
-
-/// What a set of clinoforms divides.
-#[derive(Clone, Copy)]
-enum Unit {
-    Background,
-    /// That of a horizon.
-    Of(usize),
 }
 
 impl Kind for ClinoformsSpec {
@@ -325,91 +316,6 @@ impl ClinoformsSpec {
 }
 
 impl Keys<'_, '_> {
-    /// The parent, which must be a base; the background if there is none.
-    fn unit(&self) -> Option<Unit> {
-        let Some((_, name)) = &self.draft.parent else {
-            return (!self.draft.wrong_parent()).then_some(Unit::Background);
-        };
-        let &parent = self.family.index.get(name)?;
-        self.family.is_horizon(parent).then_some(Unit::Of(parent))
-    }
-
-    /// What bounds the unit above.
-    fn top(&mut self, field: Option<Field<String>>, unit: Option<Unit>) -> Option<Bound> {
-        let Some(field) = field else {
-            let next = unit.and_then(|unit| {
-                let mut horizons = self.family.horizons().into_iter().map(|(i, _)| i);
-                let above = |i: usize| match unit {
-                    Unit::Background => true,
-                    Unit::Of(unit) => i > unit,
-                };
-                horizons.find(|&i| above(i) && self.family.drafts[i].enabled)
-            });
-            return Some(next.map_or(Bound::Domain, Bound::Horizon));
-        };
-        let (node, name) = field.good()?;
-        if name == "domain" {
-            return Some(Bound::Domain);
-        }
-        let Some(&top) = self.family.index.get(&name) else {
-            let remedy = self.checker.reader.hint(|| {
-                let mut known: Vec<&str> =
-                    self.family.horizons().iter().map(|&(_, id)| id).collect();
-                known.push("domain");
-                suggest::name(&name, &known, "horizons")
-            });
-            self.checker.reader.wrong(
-                node,
-                format!(
-                    "{} has the top {}, which is not a feature",
-                    self.draft.name,
-                    quoted(&name)
-                ),
-                remedy,
-            );
-            return None;
-        };
-        if !self.family.is_horizon(top) {
-            if let Some(Nature { name: kind, .. }) = self.family.drafts[top].kind {
-                self.checker.reader.wrong(
-                    node,
-                    format!(
-                        "{} has the top {}, which is of the kind {kind}",
-                        self.draft.name,
-                        quoted(&name)
-                    ),
-                    "name the horizon that bounds the unit above, or \"domain\"",
-                );
-            }
-            return None;
-        }
-        if let Some(Unit::Of(unit)) = unit
-            && top <= unit
-        {
-            let own = &self.family.drafts[unit].name;
-            let relation = if top == unit {
-                "its base, too"
-            } else {
-                "older than its base"
-            };
-            self.checker.reader.wrong(
-                node,
-                format!(
-                    "{} has the top {}, which is {relation}: the unit is that of {own}",
-                    self.draft.name,
-                    quoted(&name)
-                ),
-                "name a horizon that comes after the parent in the list, or \"domain\"",
-            );
-            return None;
-        }
-        if !self.family.drafts[top].enabled {
-            self.checker
-                .note(node, format!("`top` names `{name}`, which is disabled"));
-        }
-        Some(Bound::Horizon(top))
-    }
-
     fn shoreline(&self, field: Option<Field<Any>>) -> Option<[Quantity; 2]> {
         let Some(field) = field else {
             return Some(SHORELINE.map(Quantity::Constant));

@@ -6,7 +6,7 @@ use crate::model::checker::{Checker, Reported};
 use crate::model::domain::Domain;
 use crate::model::draft::{Draft, Family};
 use crate::model::read::{Any, Field};
-use crate::model::tree::{NodeId, quoted};
+use crate::model::tree::{NodeId, Value, quoted};
 use crate::model::values::limits::Limits;
 use crate::model::values::profile::{Profile, profile};
 use crate::model::values::quantity::{Quantity, quantity};
@@ -119,6 +119,43 @@ impl<'t> Keys<'_, 't> {
         limits: Limits,
     ) -> Result<Option<Quantity>, Reported> {
         optional(field, |field| self.quantity(field, key, "", limits))
+    }
+
+    /// Names of facies; none if left out.
+    pub(crate) fn facies_list(&self, field: Option<Field<Any>>, key: &str) -> Option<Vec<usize>> {
+        let Some(field) = field else {
+            return Some(Vec::new());
+        };
+        let (list, Any) = field.good()?;
+        let reader = &self.checker.reader;
+        let remedy = "write names of facies in [ ], or leave it out";
+        let nodes = match reader.tree.value(list) {
+            Value::List(nodes) if !nodes.is_empty() => nodes,
+            _ => {
+                let (what, found) = (self.what(key), reader.tree.describe(list));
+                reader.wrong(
+                    list,
+                    format!("expected a list of facies for {what}, found {found}"),
+                    remedy,
+                );
+                return None;
+            }
+        };
+        let one = |node: &NodeId| {
+            if let Value::Text(name) = reader.tree.value(*node) {
+                return self.checker.known_facies(*node, name, self.family.facies);
+            }
+            let found = reader.tree.describe(*node);
+            reader.wrong(
+                *node,
+                format!("expected the name of a facies, found {found}"),
+                remedy,
+            );
+            None
+        };
+        // All are looked at, so that one slip hides no other.
+        let all: Vec<Option<usize>> = nodes.iter().map(one).collect();
+        all.into_iter().collect()
     }
 
     /// A number within limits, both included.

@@ -4,8 +4,10 @@
 //! be said of it when it is meshed. Its geometry is in `features`, which knows no model file. A kind says what it is by its
 //! [`Nature`]; everything else of the program asks that, and never for the kind itself.
 
+pub(crate) mod body;
 mod centre;
 pub(crate) mod channel;
+pub(crate) mod clinoform;
 pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
@@ -14,8 +16,11 @@ pub(crate) mod lag;
 pub(crate) mod lobe;
 pub(crate) mod lobes;
 pub(crate) mod made;
+pub(crate) mod placed;
 pub(crate) mod point_bars;
 pub(crate) mod scour;
+pub(crate) mod sheet;
+mod unit;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -24,7 +29,9 @@ use super::draws::{Draws, Reason};
 use super::nature::{Gives, Nature};
 use super::references::Reference;
 use super::tables::by_kind;
+use body::BodySpec;
 use channel::ChannelSpec;
+use clinoform::ClinoformSpec;
 use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
@@ -35,6 +42,7 @@ use lobes::LobesSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
 use scour::ScourSpec;
+use sheet::SheetSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -201,6 +209,8 @@ kinds! {
     Horizon(HorizonSpec),
     /// Clinoforms that divide a horizon's unit.
     Clinoforms(ClinoformsSpec),
+    /// Clinoforms of one template, along any crest.
+    Clinoform(ClinoformSpec),
     /// The lowest part of a channel's fill.
     Lag(LagSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
@@ -211,6 +221,10 @@ kinds! {
     Lobe(LobeSpec),
     /// Lobes that lie on each other, and fill each other's hollows.
     Lobes(LobesSpec),
+    /// A surface through the domain from control nets of one's own.
+    Sheet(SheetSpec),
+    /// A closed body from control nets of one's own.
+    Body(BodySpec),
 }
 
 impl FeatureKind {

@@ -5,6 +5,7 @@ pub(crate) mod ends;
 pub(crate) mod facies;
 pub(crate) mod limits;
 pub(crate) mod lobe;
+pub(crate) mod nets;
 pub(crate) mod profile;
 pub(crate) mod quantity;
 pub(crate) mod selector;

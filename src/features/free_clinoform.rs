@@ -1,0 +1,310 @@
+//! Clinoforms as a free template: a sigmoidal section carried along any crest in plan (\[J19\] §2.4.1, Fig. 6c).
+//!
+//! The section ([`sigmoid`]) falls from the crest, a height above the toe, over a length; x counts basinward from the crest. Beyond
+//! both ends it goes on along its own tangents, as far above and below as a unit reaches, and a little more: whatever bounds the unit
+//! cuts it there (\[J19\] §2.5.2). The crest goes on straight beyond its ends until the sheet has left the domain.
+//!
+//! A set steps by **translation** along one azimuth, not by offset curves: no bend is too tight for the next sheet, and what lies
+//! between two sheets a distance S apart has S·H of volume for each metre across that azimuth, however the crest bends (Cavalieri).
+//! All rows of control points are level, so the elevation of a sheet is exact; only its course is interpolated.
+
+use std::convert::Infallible;
+
+use glam::{DVec2, DVec3, Vec3Swizzles};
+
+use super::extrusion::{ExtrusionError, Guides, Limits, PlacedSection, carry};
+use super::shell::ShellError;
+use super::side::Side;
+use super::sigmoid::{SigmoidError, sigmoid};
+use super::swept::Swept;
+use super::trajectory::{Trajectory, azimuth_vector};
+use crate::nurbs::{ExtendError, KnotError, KnotVector, Surface, SurfaceError};
+
+/// How far a sheet goes on above its unit and below it, as a fraction of the unit's height.
+const BEYOND: f64 = 0.06;
+/// How far it goes on at least, as a fraction of its own height.
+const LEAST_BEYOND: f64 = 0.02;
+/// How far sheets reach beyond the domain along strike, as a fraction of the domain's extent there.
+const STRIKE_MARGIN: f64 = 0.1;
+/// How far the sheet's course may be from the template, as a fraction of the length.
+const TOLERANCE: f64 = 1e-4;
+/// Most turning of the crest between two sections (rad).
+const ANGLE: f64 = 0.26;
+/// The crest may turn away from where the set steps by an angle with this cosine: 75°.
+const MOST_TURN: f64 = 0.258_819;
+/// A sigmoid whose inner control points are nearer to its ends than this fraction of its length is straight with tiny bent ends.
+const LEAST_RUN: f64 = 0.02;
+
+/// Why numbers make no clinoform along a crest.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FreeClinoformError {
+    /// There is no such section.
+    #[error(transparent)]
+    Section(#[from] SigmoidError),
+    /// The section is nearly straight.
+    #[error(
+        "the steepest gradient {steepest:.5} is hardly more than the straight line's, {mean:.5}: the section would bend at its very ends \
+         only; make it steeper, or exactly straight"
+    )]
+    NearlyStraight {
+        /// The gradient that was asked for.
+        steepest: f64,
+        /// The straight line's.
+        mean: f64,
+    },
+    /// The ends are level, so they leave the unit nowhere.
+    #[error(
+        "with a toe of 0 the ends are level and never leave the unit: give a toe above 0, such as 0.3"
+    )]
+    LevelEnds,
+    /// The crest turns away.
+    #[error(
+        "{s:.0} m along the crest, basinward is {angle_deg:.0}° off the direction in which the set steps; sheets would fold over each \
+         other beyond 75°: straighten the crest, choose another azimuth, or the other side as basinward"
+    )]
+    Turned {
+        /// Arc length (m).
+        s: f64,
+        /// The angle (°).
+        angle_deg: f64,
+    },
+    /// The template cannot be carried along the crest.
+    #[error(transparent)]
+    Extrusion(#[from] Box<ExtrusionError<Infallible>>),
+    /// The section has no knots.
+    #[error("the sheet has no knots: {0}")]
+    Knots(#[from] KnotError),
+    /// The sheet is no surface.
+    #[error("the sheet is no surface: {0}")]
+    Surface(#[from] SurfaceError),
+    /// The sheet cannot go on beyond its ends.
+    #[error("the sheet cannot go on: {0}")]
+    Extend(#[from] ExtendError),
+    /// The sheet has no side.
+    #[error("what lies basinward of the sheet is not closed: {0}")]
+    Side(#[from] ShellError),
+}
+
+/// On which side of its crest a clinoform falls, looking along the crest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basinward {
+    /// To the right.
+    Right,
+    /// To the left.
+    Left,
+}
+
+impl Basinward {
+    fn sign(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
+
+    /// The direction at right angles to the straight line from the crest's start to its end: its azimuth (rad, clockwise from
+    /// north). Of a crest that ends where it starts there is none.
+    pub fn azimuth(self, crest: &Trajectory) -> Option<f64> {
+        let chord = crest.at(crest.length()).point - crest.at(0.0).point;
+        let across = DVec2::new(chord.y, -chord.x) * self.sign();
+        (across.length() > 1e-9 * crest.length()).then(|| across.x.atan2(across.y))
+    }
+}
+
+/// A clinoform's section and how it steps, sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeClinoformDesign {
+    /// Height of the crest above the toe (m).
+    pub height: f64,
+    /// Horizontal distance from crest to toe (m).
+    pub length: f64,
+    /// Steepest gradient, halfway down.
+    pub steepest: f64,
+    /// Gradient at crest and toe, as a fraction of the straight line's; above 0.
+    pub toe: f64,
+    /// Elevation of the crest (m).
+    pub crest: f64,
+    /// The side on which it falls.
+    pub basinward: Basinward,
+    /// Direction in which the set steps (rad, clockwise from north).
+    pub azimuth: f64,
+}
+
+/// What sheets must reach through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Room {
+    /// The domain's lower corner (m).
+    pub low: DVec3,
+    /// Its upper corner (m).
+    pub high: DVec3,
+    /// Least and greatest elevation of the unit in the domain (m).
+    pub unit: [f64; 2],
+}
+
+/// A section: knots and control points across, x basinward from the crest, y = elevation (m).
+struct Section {
+    across: KnotVector,
+    points: Vec<DVec2>,
+}
+
+impl FreeClinoformDesign {
+    /// The sheet that is a step (m) farther in the direction of stepping than the crest, and a rise (m) higher.
+    pub fn sheet(
+        &self,
+        crest: &Trajectory,
+        step: f64,
+        rise: f64,
+        room: &Room,
+    ) -> Result<Surface, FreeClinoformError> {
+        let ahead = azimuth_vector(self.azimuth);
+        self.check_turns(crest, ahead)?;
+        let Section { across, points } = self.section(rise, room)?;
+        let sign = self.basinward.sign();
+        let placed = PlacedSection {
+            points: points.iter().map(|p| DVec2::new(sign * p.x, p.y)).collect(),
+            tolerance: TOLERANCE * self.length,
+        };
+        let limits = Limits {
+            angle: ANGLE,
+            constant: true,
+        };
+        let section = |_: f64| Ok(placed.clone());
+        let carried = carry(crest, limits, &[], Guides::Outline, &section).map_err(Box::new)?;
+        let by = step * ahead;
+        // Level rows, to the last bit: what is interpolated is their course.
+        let rows = carried.rows.into_iter().zip(&points);
+        let net = rows
+            .flat_map(|(row, section)| {
+                let level = section.y;
+                row.into_iter().map(move |p| (p.xy() + by).extend(level))
+            })
+            .collect();
+        let sheet = Surface::new(across, carried.along, net)?;
+        self.across_domain(&sheet, ahead, room, crest)
+    }
+
+    /// What lies basinward of it.
+    pub fn side(&self, sheet: Surface, room: &Room) -> Result<Side, FreeClinoformError> {
+        let ahead = azimuth_vector(self.azimuth);
+        let (first, _) = along(sheet.net().iter().map(|p| p.xy()), ahead);
+        let (_, last) = along(corners(room).into_iter(), ahead);
+        let size = (room.high - room.low).xy().length();
+        let far = (last - first).max(0.0) + size;
+        let swept = Swept::new("clinoform", vec![sheet], (far * ahead).extend(0.0))?;
+        Ok(swept.side("clinoform"))
+    }
+
+    /// The section with its ends, as far as the unit reaches.
+    fn section(&self, rise: f64, room: &Room) -> Result<Section, FreeClinoformError> {
+        let Self { height, length, .. } = *self;
+        let slope = sigmoid(height, length, self.steepest, self.toe)?;
+        let (run, mean) = (slope[1].x, height / length);
+        if run < LEAST_RUN * length {
+            let steepest = self.steepest;
+            return Err(FreeClinoformError::NearlyStraight { steepest, mean });
+        }
+        let gradient = (slope[0].y - slope[1].y) / run;
+        if !(gradient > 0.0) {
+            return Err(FreeClinoformError::LevelEnds);
+        }
+        let crest = self.crest + rise;
+        let [lowest, highest] = [room.unit[0].max(room.low.z), room.unit[1].min(room.high.z)];
+        let margin = BEYOND * (highest - lowest);
+        let least = LEAST_BEYOND * height;
+        let above = (highest + margin - crest).max(least) / gradient;
+        let below = (crest - height - lowest + margin).max(least) / gradient;
+        let down = DVec2::new(1.0, -gradient);
+        let slope = slope.map(|p| p + DVec2::Y * (crest - height));
+        let part = |k: usize| k as f64 / 3.0;
+        let upper = (0..3).map(|k| slope[0] - down * (above * (1.0 - part(k))));
+        let lower = (1..=3).map(|k| slope[3] + down * (below * part(k)));
+        let points = upper.chain(slope).chain(lower).collect();
+        // The speed at an end of the sigmoid is three times its first leg: spans in which the straight ends have it, too.
+        let [before, after] = [above, below].map(|reach| reach / (3.0 * run));
+        let mut knots = vec![-before; 4];
+        knots.extend([0.0; 3]);
+        knots.extend([1.0; 3]);
+        knots.extend([1.0 + after; 4]);
+        Ok(Section {
+            across: KnotVector::new(3, knots)?,
+            points,
+        })
+    }
+
+    fn check_turns(&self, crest: &Trajectory, ahead: DVec2) -> Result<(), FreeClinoformError> {
+        for place in crest.places() {
+            let cosine = ahead.dot(place.right()) * self.basinward.sign();
+            if !(cosine >= MOST_TURN) {
+                let (s, angle_deg) = (place.s, cosine.clamp(-1.0, 1.0).acos().to_degrees());
+                return Err(FreeClinoformError::Turned { s, angle_deg });
+            }
+        }
+        Ok(())
+    }
+
+    /// The sheet with its ends continued straight, until no place of the domain lies ahead of a border.
+    fn across_domain(
+        &self,
+        sheet: &Surface,
+        ahead: DVec2,
+        room: &Room,
+        crest: &Trajectory,
+    ) -> Result<Surface, FreeClinoformError> {
+        // Along this, rows run from their first control point to their last.
+        let strike = DVec2::new(-ahead.y, ahead.x) * self.basinward.sign();
+        let (low, high) = along(corners(room).into_iter(), strike);
+        let margin = STRIKE_MARGIN * (high - low);
+        let (low, high) = (low - margin, high + margin);
+        let knots = sheet.knots_v();
+        let (q, count, all) = (knots.degree(), knots.count(), knots.as_slice());
+        let mut lengths = [0.0_f64; 2];
+        for row in sheet.net().chunks(count) {
+            let ends = [
+                (row[0], row[1], all[q + 1] - all[q], -1.0, -low),
+                (
+                    row[count - 1],
+                    row[count - 2],
+                    all[count] - all[count - 1],
+                    1.0,
+                    high,
+                ),
+            ];
+            for (length, (end, inner, span, sign, limit)) in lengths.iter_mut().zip(ends) {
+                let outwards = sign * strike;
+                let speed = (end - inner).xy().dot(outwards) * q as f64 / span;
+                let missing = limit - end.xy().dot(outwards);
+                if missing > 0.0 && !(speed > 0.0) {
+                    let s = if sign < 0.0 { 0.0 } else { crest.length() };
+                    let angle_deg = 90.0;
+                    return Err(FreeClinoformError::Turned { s, angle_deg });
+                }
+                *length = length.max(missing / speed);
+            }
+        }
+        Ok(sheet.extended_v(lengths.map(|length| length.max(0.0)))?)
+    }
+}
+
+/// The corners of a domain's plan.
+fn corners(room: &Room) -> [DVec2; 4] {
+    let (low, high) = (room.low.xy(), room.high.xy());
+    [
+        low,
+        DVec2::new(high.x, low.y),
+        high,
+        DVec2::new(low.x, high.y),
+    ]
+}
+
+/// Least and greatest coordinate of places along a direction.
+fn along(places: impl Iterator<Item = DVec2>, direction: DVec2) -> (f64, f64) {
+    let nothing = (f64::INFINITY, f64::NEG_INFINITY);
+    places.fold(nothing, |(least, most), place| {
+        let at = place.dot(direction);
+        (least.min(at), most.max(at))
+    })
+}
+
+#[cfg(test)]
+#[path = "free_clinoform_tests.rs"]
+mod tests;
