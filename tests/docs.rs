@@ -72,6 +72,7 @@ fn kind_of(value: &Value) -> String {
     if let Some(reference) = value.get("$ref").and_then(Value::as_str) {
         return match reference.rsplit('/').next().unwrap() {
             "Quantity" => "quantity".to_owned(),
+            "Ends" => "one or two quantities".to_owned(),
             "Profile" => "profile".to_owned(),
             "Selector" => "word or list".to_owned(),
             "Surface" => "surface".to_owned(),
@@ -153,7 +154,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         let ids = [
             "id", "kind", "enabled", "count", "level", "parent", "along", "facies",
         ];
-        let rules = ["removes", "removed_by", "preserve"];
+        let rules = ["conform", "removes", "removed_by", "preserve"];
         let keys = ids.into_iter().chain(rules);
         Keys {
             properties: keys
@@ -168,6 +169,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
     };
     match place {
         "a belt" => defined("Belt"),
+        "a conform" => defined("Conform"),
         "a drape" => defined("Drape"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),

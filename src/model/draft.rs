@@ -12,6 +12,7 @@ use super::read::{Any, Field};
 use super::references::Host;
 use super::suggest;
 use super::tree::{NodeId, quoted};
+use super::values::conform::ConformFile;
 use super::values::facies::FaciesList;
 use super::values::selector::Selector;
 
@@ -41,6 +42,9 @@ pub(crate) struct FeatureFile {
     pub(crate) along: Option<Field<String>>,
     /// The facies of what it bounds.
     pub(crate) facies: Field<String>,
+    /// A surface that it conforms to, with all that lies in it: { to = "lower-3", depth = 2 }.
+    #[schemars(with = "Option<ConformFile>")]
+    pub(crate) conform: Option<Field<Any>>,
     /// What it may remove: "older" (the default), "everything", "nothing", or a list of ids, { kind = … }, { level = … }, { facies = … }.
     #[schemars(with = "Option<Selector>")]
     pub(crate) removes: Option<Field<Any>>,

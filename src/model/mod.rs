@@ -60,7 +60,7 @@ pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
-pub use kinds::lobe::LobeSpec;
+pub use kinds::lobe::{LobePlace, LobeSpec};
 pub use kinds::lobes::LobesSpec;
 pub use kinds::made::Bound;
 pub use kinds::placed::Placed;
@@ -76,6 +76,7 @@ pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{Feature, Model};
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};
+pub use values::conform::ConformSpec;
 pub use values::distribution::{
     Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
 };

@@ -157,6 +157,16 @@ impl VolumeRules {
     fn is_picked_by(&self, pick: &Pick) -> bool {
         match pick {
             Pick::Id(id) => self.feature == *id || self.name == *id,
+            Pick::Part(feature, part) => {
+                let named = format!("{feature}{part}");
+                let mut ends = self.name.match_indices(&named);
+                self.feature == *feature
+                    && ends.any(|(at, _)| {
+                        let rest = &self.name[at + named.len()..];
+                        (at == 0 || self.name[..at].ends_with('/'))
+                            && (rest.is_empty() || rest.starts_with('/'))
+                    })
+            }
             Pick::Kind(kind) => self.kind == *kind,
             Pick::Level(level) => self.level == *level,
             Pick::Facies(facies) => self.facies == *facies,

@@ -7,7 +7,8 @@ use super::domain::Domain;
 use super::facies::Facies;
 use super::kinds::FeatureKind;
 use super::place::{Note, Place};
-use super::references::Host;
+use super::references::{Host, Reference};
+use super::values::conform::ConformSpec;
 use super::values::selector::Selector;
 
 /// A checked model.
@@ -56,11 +57,19 @@ pub struct Feature {
     pub removed_by: Selector,
     /// Whether it removes nothing but its parent and the background.
     pub preserve: bool,
+    /// What it conforms to by itself, not with what it lies in.
+    pub conform: Option<ConformSpec>,
     /// Where the file defines it.
     pub place: Place,
 }
 
 impl Feature {
+    /// What it is made by, besides its host.
+    pub(crate) fn refers(&self) -> Vec<&Reference> {
+        let conform = self.conform.iter().map(|conform| &conform.to);
+        self.kind.refers().into_iter().chain(conform).collect()
+    }
+
     /// What it goes with, of which each instance has its own; nothing of what goes with the model as a whole.
     pub fn host(&self) -> Option<Host> {
         match (self.along, self.parent) {

@@ -33,11 +33,18 @@ const TOLERANCE: f64 = 0.01;
 /// … and at most (m).
 const MOST: f64 = 0.05;
 
+/// A surface that dips by more than this is spoken of (degrees).
+const STEEP: f64 = 10.0;
+/// Places along the sides of a body's box at which that is looked at.
+const PLACES: usize = 16;
+
 /// A body that conforms.
 pub(crate) struct Warped {
     pub(crate) body: Body,
     /// How far it is from where it should be, at most (m).
     pub(crate) deviation: f64,
+    /// The steepest dip of the surface there (rad).
+    pub(crate) steepest: f64,
 }
 
 impl Warp {
@@ -53,8 +60,33 @@ impl Warp {
         })
     }
 
-    /// A body that was built about a level (m), where it conforms.
-    pub(crate) fn apply(&self, body: &Body, level: f64) -> Result<Warped, Reason> {
+    /// The same of bodies that are built about a level (m), unless it has a reference already.
+    #[must_use]
+    pub(crate) fn at(self, level: f64) -> Self {
+        Self {
+            reference: Some(self.reference.unwrap_or(level)),
+            ..self
+        }
+    }
+
+    /// What was reached, in words that follow the feature's id.
+    pub(crate) fn told(&self, deviation: f64, steepest: f64) -> String {
+        let dip = steepest.to_degrees();
+        let upright = if dip > STEEP {
+            format!(
+                "; that dips at up to {dip:.0}° there, so across it bodies are thinner than upwards"
+            )
+        } else {
+            String::new()
+        };
+        format!(
+            "conforms to {} within {deviation:.2e} m{upright}",
+            self.name
+        )
+    }
+
+    /// A body where it conforms.
+    pub(crate) fn apply(&self, body: &Body) -> Result<Warped, Reason> {
         let wrong = |error: ConformError| {
             let reason = match error {
                 ConformError::NoHeight { .. } => "nothing to conform to",
@@ -72,14 +104,38 @@ impl Warp {
         let shell = closed(body).map_err(|error| wrong(error.into()))?;
         let target = Target {
             height: &|at| self.surface.height(at),
-            reference: self.reference.unwrap_or(level),
+            reference: self.reference.unwrap_or(high.z),
             depth: self.depth,
         };
         let made = conform(&shell, &target, tolerance).map_err(wrong)?;
         Ok(Warped {
+            steepest: self.steepest(low.truncate(), high.truncate()),
             body: Body::Shell(made.shell),
             deviation: made.deviation,
         })
+    }
+}
+
+impl Warp {
+    /// The steepest dip of the surface between two corners in plan (rad), over a grid of places.
+    fn steepest(&self, low: DVec2, high: DVec2) -> f64 {
+        let step = (high - low) / PLACES as f64;
+        let height = |i: usize, j: usize| {
+            self.surface
+                .height(low + step * DVec2::new(i as f64, j as f64))
+        };
+        let mut steepest = 0.0_f64;
+        for i in 0..PLACES {
+            for j in 0..PLACES {
+                if let (Some(here), Some(east), Some(north)) =
+                    (height(i, j), height(i + 1, j), height(i, j + 1))
+                {
+                    let slope = DVec2::new(east - here, north - here) / step;
+                    steepest = steepest.max(slope.length().atan());
+                }
+            }
+        }
+        steepest
     }
 }
 

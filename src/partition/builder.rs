@@ -8,6 +8,7 @@ use super::boxes;
 use super::faces::{Face as TracedFace, HalfEdge};
 use super::hermite::{PARTS, on_sheet};
 use super::quadrature::Integral;
+use super::slits::{Step, left_out};
 use super::solids::{Parts, Solid as JoinedSolid};
 use super::topology::{
     CurveShape, Edge, Face, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
@@ -60,6 +61,9 @@ impl Topology {
         topology
     }
 }
+
+/// Places along an arc by which loops are compared.
+const SAMPLES: usize = 8;
 
 /// The curves of an arc, in space and on both sheets, until they are taken.
 struct ArcCurves {
@@ -147,21 +151,26 @@ impl Builder<'_> {
         let (is_plane, looks_out) = (shape.plane.is_some(), shape.looks_out);
         let sheet = self.sheet(face.sheet, shape);
         let mut loops = Vec::with_capacity(face.loops.len());
-        for own in &face.loops {
-            let mut uses = Vec::with_capacity(own.len());
-            for half in own {
-                let arc = &self.parts.arcs[half.arc];
-                let is_pole = matches!(self.parts.tracks.tracks[arc.track].source, Source::Pole(_));
-                if is_pole && is_plane {
-                    continue;
-                }
-                let edge = self.edge(half.arc);
-                uses.push((edge, !half.forward));
-                if !is_plane {
+        if is_plane {
+            for own in self.on_plane(face) {
+                let arcs = own
+                    .into_iter()
+                    .filter_map(|(arc, reversed)| Some((arc?, reversed)));
+                loops.push(
+                    arcs.map(|(arc, reversed)| (self.edge(arc), reversed))
+                        .collect(),
+                );
+            }
+        } else {
+            for own in &face.loops {
+                let mut uses = Vec::with_capacity(own.len());
+                for half in own {
+                    let edge = self.edge(half.arc);
+                    uses.push((edge, !half.forward));
                     self.place(edge, sheet, half);
                 }
+                loops.push(uses);
             }
-            loops.push(uses);
         }
         let [inner, outer] = face.labels;
         self.topology.faces.push(Face {
@@ -174,6 +183,34 @@ impl Builder<'_> {
             },
             integral,
         });
+    }
+
+    /// The loops of a face on a plane, which knows no seams and no poles.
+    fn on_plane(&self, face: &TracedFace) -> Vec<Vec<Step>> {
+        let parts = self.parts;
+        let source = |arc: usize| parts.tracks.tracks[parts.arcs[arc].track].source;
+        let step = |half: &HalfEdge| {
+            let is_pole = matches!(source(half.arc), Source::Pole(_));
+            ((!is_pole).then_some(half.arc), !half.forward)
+        };
+        let loops: Vec<Vec<Step>> = face
+            .loops
+            .iter()
+            .map(|own| own.iter().map(step).collect())
+            .collect();
+        let size = |own: &[Step]| {
+            let arcs = own.iter().filter_map(|step| step.0);
+            let points = arcs.flat_map(|arc| {
+                let [from, to] = parts.arcs[arc].t;
+                (0..=SAMPLES).map(move |k| {
+                    let t = from + (to - from) * k as f64 / SAMPLES as f64;
+                    parts.geometry.point(source(arc), t)
+                })
+            });
+            let around = Bounds::of(points);
+            (around.high - around.low).length()
+        };
+        left_out(&loops, size)
     }
 
     fn edge(&mut self, at: usize) -> usize {

@@ -9,6 +9,7 @@
     reason = "a test fails by panicking"
 )]
 
+mod bodies;
 mod channels;
 mod ellipsoids;
 mod files;
@@ -21,6 +22,7 @@ mod shorefaces;
 use clinothem::model::{Defects, Format, Model, Source};
 
 const TOML: &str = include_str!("good.toml");
+const BODY: &str = include_str!("body.toml");
 const NODULE: &str = include_str!("nodule.toml");
 const SHOREFACE: &str = include_str!("shoreface.toml");
 const JSON: &str = include_str!("good.json");
@@ -91,6 +93,7 @@ fn the_good_files_are_good() {
         ("a.json", JSON, Format::Json),
         ("b.toml", NODULE, Format::Toml),
         ("c.toml", SHOREFACE, Format::Toml),
+        ("d.toml", BODY, Format::Toml),
     ] {
         let source = Source::from_text(name, text, format);
         Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));

@@ -339,6 +339,7 @@ impl Checker<'_> {
             Field::Good(at, name) => Some((*at, name)),
         };
         let facies = named.and_then(|(at, name)| self.known_facies(at, name, family.facies));
+        let conform = self.conform(draft, family);
         let removes = self.removes(draft, draft.file.removes.as_ref(), family);
         let removed_by = self.removed_by(draft, draft.file.removed_by.as_ref(), family);
         let preserve = match &draft.file.preserve {
@@ -365,6 +366,7 @@ impl Checker<'_> {
             removes: removes?,
             removed_by: removed_by?,
             preserve,
+            conform: conform.ok()?,
             place: self.place(draft.node),
         })
     }

@@ -1,5 +1,6 @@
 //! From text to a checked [`Model`], with every defect found on the way.
 
+mod conform;
 mod domain;
 mod facies;
 mod family;

@@ -139,6 +139,13 @@ impl Site<'_> {
             None => drawn,
             Some(warp) => drawn.with_z(warp.height(drawn.truncate())?),
         };
+        let [base, top] = self.domain.z;
+        if self.warp.is_some() && !(base..=top).contains(&lies.z) {
+            let message = format!(
+                "the centre comes to lie at {lies:.2}, above or below the domain; give it a `center`"
+            );
+            return Err(("centre outside the domain", message));
+        }
         match self.interior {
             Some(parent) if !parent.contains(lies) => Err((
                 "centre outside the parent",

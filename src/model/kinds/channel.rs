@@ -25,6 +25,9 @@ use crate::model::values::trajectory::{self, TrajectorySpec};
 /// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
 /// two widths are added. Ends well outside leave the domain's walls to be crossed cleanly.
 const OVERSHOOT: f64 = 0.05;
+/// How far the rims of a channel that conforms to a surface stand above it, as a fraction of the depth: its top does not run along
+/// the surface.
+const PROUD: f64 = 0.02;
 const DEFAULT_ANGLE_LIMIT_DEG: f64 = 15.0;
 const DEFAULT_TOLERANCE_FRACTION: f64 = 0.01;
 /// Below these sections are so dense that nothing is gained, and surfaces take gigabytes.
@@ -122,6 +125,8 @@ impl Kind for ChannelSpec {
 
     const GIVES: Gives = Gives::Way;
 
+    const CONFORMS: bool = true;
+
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         ChannelFile::json_schema(generator)
     }
@@ -189,10 +194,14 @@ impl Kind for ChannelSpec {
         let asymmetry = draws.profile(&self.asymmetry, "asymmetry")?;
         let left_angle = draws.angle(self.left_angle_deg.as_ref(), "left_angle_deg")?;
         let right_angle = draws.angle(self.right_angle_deg.as_ref(), "right_angle_deg")?;
+        let deepest = depth.range().1;
         let top = match &self.top {
             Some(top) => draws.profile(top, "top")?,
-            None => any_top(depth.range().1, domain, draws)?,
+            // What conforms to a surface is built anywhere.
+            None if site.warp.is_some() => Along::Constant(domain.z[0]),
+            None => any_top(deepest, domain, draws)?,
         };
+        let rims = top.range().1;
         let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
         let trajectory = trajectory::trajectory(&self.trajectory, site, overshoot, draws)?;
         let design = ChannelDesign {
@@ -215,7 +224,7 @@ impl Kind for ChannelSpec {
         let reach = Reach::new(design, Arc::new(trajectory), &trough);
         Ok(Made {
             frame: Frame::Along(Arc::new(reach)),
-            ..Made::body(Body::Trough(trough), draws.taken())
+            ..Made::body(Body::Trough(trough), draws.taken()).at_level(rims - PROUD * deepest)
         })
     }
 

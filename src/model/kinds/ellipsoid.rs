@@ -60,6 +60,8 @@ impl Kind for EllipsoidSpec {
         apart: "move the `center` of {name} by {by} or more, or change its `semi_axes`",
     };
 
+    const CONFORMS: bool = true;
+
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         EllipsoidFile::json_schema(generator)
     }
@@ -108,7 +110,7 @@ impl Kind for EllipsoidSpec {
         let ellipsoid = design
             .build()
             .map_err(|error| (error.reason(), error.to_string()))?;
-        Ok(Made::body(Body::Ellipsoid(ellipsoid), draws.taken()))
+        Ok(Made::body(Body::Ellipsoid(ellipsoid), draws.taken()).at_level(center.z))
     }
 
     fn wants_interior(&self) -> bool {

@@ -119,13 +119,14 @@ impl Kind for LobesSpec {
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
-        with_shape(LobesFile::json_schema(generator), generator)
+        let needed = ["count", "length", "thickness", "azimuth_deg"];
+        with_shape(LobesFile::json_schema(generator), &needed, generator)
     }
 
     fn read(keys: &mut Keys<'_, '_>) -> Option<Self> {
         let file: LobesFile = keys.table()?;
         let count = keys.lobes_count();
-        let shape = keys.lobe_shape();
+        let shape = keys.lobe_shape(false);
         let region = keys.region(file.region);
         let compensation = keys.optional_quantity(file.compensation, "compensation", NOT_NEGATIVE);
         let base = keys.optional_quantity(file.base, "base", ANY);
@@ -159,7 +160,7 @@ impl Kind for LobesSpec {
         let mut parts = Vec::with_capacity(self.count);
         let mut ends = vec![draws.drawn.len()];
         for number in 1..=self.count {
-            let shape = draws.lobe_shape(&self.shape, &format!("{number}."))?;
+            let shape = draws.lobe_shape(&self.shape, &format!("{number}."), None)?;
             let stack = match &mut stack {
                 Some(stack) => stack,
                 // Places as dense as the first one is wide.

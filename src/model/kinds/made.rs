@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::features::body::Body;
 use crate::features::horizon::Horizon;
 use crate::features::reach::Reach;
+use crate::features::side::Side;
 use crate::model::domain::Domain;
 use crate::model::draws::Reason;
 use crate::model::interior::Interior;
@@ -75,6 +76,28 @@ impl<'a> Site<'a> {
             })?)
         };
         Ok(Other { made, part })
+    }
+
+    /// The open sheet that something refers to.
+    pub(crate) fn sheet(&self, reference: &Reference) -> Result<&'a Arc<Side>, Reason> {
+        let found = self.others.iter().find(|other| other.0 == reference);
+        // A clinothem with belts is the sheet of the first of them.
+        let is_it = |part: &&Part| {
+            let rest = part.name.strip_prefix(reference.part.as_str());
+            reference.part.is_empty()
+                || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let part = found.and_then(|(_, made)| made.parts.iter().find(is_it));
+        match part.map(|part| &part.body) {
+            Some(Body::Side(side)) => Ok(side),
+            _ => {
+                let message = format!(
+                    "there is no sheet number `{}` with this seed",
+                    reference.part.trim_start_matches('-')
+                );
+                Err(("no such referent", message))
+            }
+        }
     }
 
     /// The channel that something refers to.
@@ -172,7 +195,22 @@ impl Made {
     }
 }
 
+impl Made {
+    /// The same, with the elevation in it that comes to lie on what it conforms to (m).
+    pub(crate) fn at_level(mut self, level: f64) -> Self {
+        for part in &mut self.parts {
+            part.level = Some(level);
+        }
+        self
+    }
+}
+
 impl Part {
+    /// The elevation in it that comes to lie on what it conforms to (m).
+    pub(crate) fn level(&self) -> f64 {
+        self.level.unwrap_or_else(|| self.body.bounds().1.z)
+    }
+
     /// The only volume of an instance, which takes what the feature's rules admit.
     pub(crate) fn of(body: Body) -> Self {
         Self {

@@ -52,6 +52,9 @@ pub(crate) trait Kind: Sized + Into<FeatureKind> {
     /// What features that refer to it find in what was made of it.
     const GIVES: Gives = Gives::Nothing;
 
+    /// Whether it is bodies that may conform to a surface.
+    const CONFORMS: bool = false;
+
     /// Its table, for editors.
     fn schema(generator: &mut SchemaGenerator) -> Schema;
 
@@ -103,6 +106,7 @@ pub(crate) trait Kind: Sized + Into<FeatureKind> {
 pub(crate) struct Entry {
     pub(crate) nature: Nature,
     pub(crate) gives: Gives,
+    pub(crate) conforms: bool,
     pub(crate) schema: fn(&mut SchemaGenerator) -> Schema,
     pub(crate) read: fn(&mut Keys<'_, '_>) -> Option<FeatureKind>,
     pub(crate) meshing: fn(&[Outcome<'_>]) -> Option<String>,
@@ -115,6 +119,7 @@ const fn entry<K: Kind>() -> Entry {
     Entry {
         nature: K::NATURE,
         gives: K::GIVES,
+        conforms: K::CONFORMS,
         schema: K::schema,
         read: read::<K>,
         meshing: K::meshing,
@@ -237,6 +242,12 @@ impl FeatureKind {
 /// The kinds' names, as the model file writes them.
 pub(crate) fn names() -> Vec<&'static str> {
     KINDS.iter().map(|kind| kind.nature.name).collect()
+}
+
+/// The names of the kinds that may conform to a surface.
+pub(crate) fn conforming() -> Vec<&'static str> {
+    let conforming = KINDS.iter().filter(|kind| kind.conforms);
+    conforming.map(|kind| kind.nature.name).collect()
 }
 
 /// The kind of this name.

@@ -15,6 +15,7 @@ use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason, diagonal};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
+use crate::model::references::Reference;
 use crate::model::values::ends::{Ends, ends};
 use crate::model::values::limits::{ANY, AZIMUTH, Limits, POSITIVE};
 use crate::model::values::quantity::Quantity;
@@ -155,6 +156,8 @@ impl Kind for ScourSpec {
         apart: "change `top` or `depth` of {name} by {by} or more, or move its `center`",
     };
 
+    const CONFORMS: bool = true;
+
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         ScourFile::json_schema(generator)
     }
@@ -238,6 +241,13 @@ impl Kind for ScourSpec {
         })
     }
 
+    fn refers(&self) -> Vec<&Reference> {
+        match &self.way {
+            Way::Along(trajectory) => trajectory.refers(),
+            Way::Straight { .. } => Vec::new(),
+        }
+    }
+
     fn wants_interior(&self) -> bool {
         matches!(
             self.way,
@@ -283,7 +293,7 @@ impl ScourSpec {
             Way::Along(spec) => {
                 let top = site.elevation(top, "top", [deepest, 0.0], draws)?;
                 let overshoot = 0.05 * diagonal(site.domain);
-                let trajectory = trajectory::trajectory(spec, site.domain, overshoot, draws)?;
+                let trajectory = trajectory::trajectory(spec, site, overshoot, draws)?;
                 return Ok((trajectory, top));
             }
             Way::Straight {
@@ -337,7 +347,7 @@ impl Keys<'_, '_> {
                 );
                 return None;
             }
-            let trajectory = self.checker.trajectory(at, self.draft)?;
+            let trajectory = self.checker.trajectory(at, self.family)?;
             if let Some(domain) = self.domain {
                 let name = &self.draft.name;
                 self.checker

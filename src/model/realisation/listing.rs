@@ -302,7 +302,7 @@ impl<'a> Listing<'a> {
                 let numbers = hosts.instance(way, reference)?;
                 self.instances.get(&(reference.feature, numbers)).copied()
             };
-            let refers = features[due.feature].kind.refers();
+            let refers = features[due.feature].refers();
             due.referents = refers.into_iter().map(find).collect();
         }
     }
@@ -400,7 +400,7 @@ fn guests(model: &Model) -> BTreeMap<Option<Host>, Vec<usize>> {
 fn waits(model: &Model) -> references::Waits {
     let waits = |feature: &Feature| {
         let host = feature.host().map(Host::feature);
-        let referents = feature.kind.refers().into_iter().map(|one| one.feature);
+        let referents = feature.refers().into_iter().map(|one| one.feature);
         host.into_iter().chain(referents).collect()
     };
     model.features.iter().map(waits).collect()
@@ -423,7 +423,7 @@ fn wanted(model: &Model, selection: &Selection) -> Vec<bool> {
     let mut open: Vec<usize> = (0..features.len()).filter(takes_part).collect();
     while let Some(index) = open.pop() {
         let feature = &features[index];
-        let referents = feature.kind.refers().into_iter().map(|one| one.feature);
+        let referents = feature.refers().into_iter().map(|one| one.feature);
         // What is wanted needs what it goes with.
         let host = feature.host().map(Host::feature);
         let host = host.filter(|_| is_wanted[index]);

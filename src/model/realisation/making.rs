@@ -1,21 +1,49 @@
 //! Instances made: drawn and built, each after its host and all that it refers to.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::listing::{Due, Listing};
 use super::{RealisationError, draw_whole};
-use crate::model::draws::{Key, attempt};
+use crate::model::draws::{Draws, Key, attempt};
 use crate::model::interior::Interior;
 use crate::model::kinds::made::{Frame, Made, Part, Site};
 use crate::model::spec::Model;
+use crate::model::warp::{Warp, Warped};
 
 /// What was made of an instance.
 pub(super) struct Built {
     pub(super) made: Made,
     /// The reasons of its rejected attempts.
     pub(super) rejected: Vec<&'static str>,
+    /// What it conforms to, by itself or with its host, with the level that comes to lie there.
+    warp: Option<Arc<Warp>>,
+    /// Its parts' bodies where they conform.
+    warped: Vec<Warped>,
+}
+
+impl Built {
+    /// The same with its bodies where they conform, and what was reached, for the report.
+    fn conforming(mut self) -> Self {
+        let Some(warp) = self.warp.take() else {
+            return self;
+        };
+        let (mut deviation, mut steepest) = (0.0_f64, 0.0_f64);
+        for (part, warped) in self
+            .made
+            .parts
+            .iter_mut()
+            .zip(std::mem::take(&mut self.warped))
+        {
+            deviation = deviation.max(warped.deviation);
+            steepest = steepest.max(warped.steepest);
+            part.body = warped.body;
+        }
+        self.made.decisions.push(warp.told(deviation, steepest));
+        self
+    }
 }
 
 /// Makes all instances, in the order of their list.
@@ -49,7 +77,8 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
                 nudge: one.nudge,
                 warp: None,
             };
-            Ok((at, build(model, one, &site)?))
+            let inherited = host.and_then(|host| host.warp.as_ref());
+            Ok((at, build(model, one, &site, inherited)?))
         };
         let generation: Vec<Result<_, RealisationError>> =
             generation.into_par_iter().map(make).collect();
@@ -58,7 +87,7 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
             built[at] = Some(one);
         }
     }
-    Ok(built.into_iter().flatten().collect())
+    Ok(built.into_iter().flatten().map(Built::conforming).collect())
 }
 
 /// What those parents hold by which their children are placed.
@@ -90,10 +119,45 @@ fn interiors(
 }
 
 /// Draws and builds one instance.
-fn build(model: &Model, due: &Due, site: &Site<'_>) -> Result<Built, RealisationError> {
+fn build(
+    model: &Model,
+    due: &Due,
+    site: &Site<'_>,
+    inherited: Option<&Arc<Warp>>,
+) -> Result<Built, RealisationError> {
     let feature = &model.features[due.feature];
-    let draw = |key: Key<'_>| attempt(key, |draws| feature.kind.make(site, draws));
-    let ((made, _), rejected) =
+    let make = |draws: &mut Draws<'_>| {
+        let own = match &feature.conform {
+            Some(conform) => Some(draws.warp(conform, site.sheet(&conform.to)?)?),
+            None => None,
+        };
+        let site = Site {
+            warp: own.as_ref(),
+            ..*site
+        };
+        let made = feature.kind.make(&site, draws)?;
+        // What lies in it moves with it, whatever its own level is.
+        let level = made.parts.first().map_or(0.0, Part::level);
+        let own = own.map(|warp| Arc::new(warp.at(level)));
+        let warp = own.or_else(|| inherited.cloned());
+        let warped = match &warp {
+            Some(warp) => {
+                let parts = made.parts.iter();
+                parts
+                    .map(|part| warp.apply(&part.body))
+                    .collect::<Result<_, _>>()?
+            }
+            None => Vec::new(),
+        };
+        Ok((made, warp, warped))
+    };
+    let draw = |key: Key<'_>| attempt(key, make);
+    let (((made, warp, warped), _), rejected) =
         draw_whole(model, &feature.id, &due.number, draw).map_err(|error| error.of(&due.name))?;
-    Ok(Built { made, rejected })
+    Ok(Built {
+        made,
+        rejected,
+        warp,
+        warped,
+    })
 }

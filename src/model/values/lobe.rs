@@ -9,6 +9,7 @@ use super::limits::{AZIMUTH, Limits, POSITIVE};
 use super::quantity::Quantity;
 use crate::features::body::{Body, Role};
 use crate::features::lobe::LobeDesign;
+use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::kinds::keys::Keys;
 use crate::model::read::{Any, Field};
@@ -31,14 +32,14 @@ const SHAPE: Limits = Limits {
 /// The shape of a lobe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LobeShape {
-    /// Length along the axis.
-    pub length: Quantity,
-    /// Width across; two thirds of the length if absent.
+    /// Length along the axis; chosen by what it lies at if absent.
+    pub length: Option<Quantity>,
+    /// Width across; chosen by what it lies at, or two thirds of the length, if absent.
     pub width: Option<Quantity>,
-    /// Greatest thickness.
-    pub thickness: Quantity,
-    /// Direction of the axis, downstream, clockwise from north, degrees.
-    pub azimuth_deg: Quantity,
+    /// Greatest thickness; chosen by what it lies at if absent.
+    pub thickness: Option<Quantity>,
+    /// Direction of the axis, downstream, clockwise from north, degrees; chosen by what it lies at if absent.
+    pub azimuth_deg: Option<Quantity>,
     /// How much wider it is downstream.
     pub taper: Quantity,
     /// How much thicker it is upstream.
@@ -50,17 +51,17 @@ pub struct LobeShape {
 #[serde(deny_unknown_fields)]
 pub(crate) struct LobeShapeFile {
     /// Length along the axis in metres, above 0.
-    #[schemars(with = "Quantity")]
-    pub(crate) length: Field<Any>,
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) length: Option<Field<Any>>,
     /// Width across in metres, above 0: that of the ellipse without taper; two thirds of the length if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) width: Option<Field<Any>>,
     /// Greatest thickness in metres, above 0.
-    #[schemars(with = "Quantity")]
-    pub(crate) thickness: Field<Any>,
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) thickness: Option<Field<Any>>,
     /// Direction of the axis, downstream, in degrees, clockwise from north.
-    #[schemars(with = "Quantity")]
-    pub(crate) azimuth_deg: Field<Any>,
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) azimuth_deg: Option<Field<Any>>,
     /// How much wider it is downstream than upstream, between -0.9 and 0.9 (0 is an ellipse in plan); 0.5 if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) taper: Option<Field<Any>>,
@@ -70,22 +71,32 @@ pub(crate) struct LobeShapeFile {
 }
 
 impl Keys<'_, '_> {
-    /// The keys of a lobe's shape in the feature's own table.
-    pub(crate) fn lobe_shape(&self) -> Option<LobeShape> {
+    /// The keys of a lobe's shape in the feature's own table; length, thickness and azimuth must be there unless something else says what
+    /// they are.
+    pub(crate) fn lobe_shape(&self, is_free: bool) -> Option<LobeShape> {
         let file: LobeShapeFile = self.table()?;
-        let length = self.quantity(file.length, "length", "length = 1350", POSITIVE);
+        let needed = |field: Option<Field<Any>>, key: &str, example: &str, limits: Limits| {
+            if field.is_none() && is_free {
+                return Ok(None);
+            }
+            let field = field.unwrap_or(Field::Missing);
+            self.quantity(field, key, example, limits)
+                .map(Some)
+                .ok_or(Reported)
+        };
+        let length = needed(file.length, "length", "length = 1350", POSITIVE);
         let width = self.optional_quantity(file.width, "width", POSITIVE);
-        let thickness = self.quantity(file.thickness, "thickness", "thickness = 4", POSITIVE);
-        let azimuth = self.quantity(file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
+        let thickness = needed(file.thickness, "thickness", "thickness = 4", POSITIVE);
+        let azimuth = needed(file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
         let taper = self.optional_quantity(file.taper, "taper", SHAPE);
         let skew = self.optional_quantity(file.skew, "skew", SHAPE);
         let or =
             |given: Option<Quantity>, default: f64| given.unwrap_or(Quantity::Constant(default));
         Some(LobeShape {
-            length: length?,
+            length: length.ok()?,
             width: width.ok()?,
-            thickness: thickness?,
-            azimuth_deg: azimuth?,
+            thickness: thickness.ok()?,
+            azimuth_deg: azimuth.ok()?,
             taper: or(taper.ok()?, TAPER),
             skew: or(skew.ok()?, SKEW),
         })
@@ -93,46 +104,47 @@ impl Keys<'_, '_> {
 }
 
 impl Draws<'_> {
-    /// The shape drawn, of a lobe that is nowhere yet; the parameters' names begin with a prefix.
+    /// The shape drawn, of a lobe that is nowhere yet, or is like another one but for what is given; the parameters' names begin with a
+    /// prefix.
     pub(crate) fn lobe_shape(
         &mut self,
         shape: &LobeShape,
         prefix: &str,
+        like: Option<&LobeDesign>,
     ) -> Result<LobeDesign, Reason> {
-        let mut draw =
-            |quantity: &Quantity, key: &str| self.quantity(quantity, &format!("{prefix}{key}"));
-        let length = draw(&shape.length, "length")?;
+        let mut draw = |given: Option<&Quantity>, key: &str, default: Option<f64>| match given {
+            Some(quantity) => self.quantity(quantity, &format!("{prefix}{key}")),
+            None => default.ok_or_else(|| ("impossible lobe", format!("it has no {key}"))),
+        };
+        let default = |of: fn(&LobeDesign) -> f64| like.map(of);
+        let length = draw(shape.length.as_ref(), "length", default(|one| one.length))?;
+        let width = default(|one| one.width).unwrap_or(length / ASPECT);
+        let degrees = default(|one| one.azimuth.to_degrees());
         Ok(LobeDesign {
             center: DVec3::ZERO,
             length,
-            width: match &shape.width {
-                Some(width) => draw(width, "width")?,
-                None => length / ASPECT,
-            },
-            thickness: draw(&shape.thickness, "thickness")?,
-            azimuth: draw(&shape.azimuth_deg, "azimuth_deg")?.to_radians(),
-            taper: draw(&shape.taper, "taper")?,
-            skew: draw(&shape.skew, "skew")?,
+            width: draw(shape.width.as_ref(), "width", Some(width))?,
+            thickness: draw(
+                shape.thickness.as_ref(),
+                "thickness",
+                default(|one| one.thickness),
+            )?,
+            azimuth: draw(shape.azimuth_deg.as_ref(), "azimuth_deg", degrees)?.to_radians(),
+            taper: draw(Some(&shape.taper), "taper", None)?,
+            skew: draw(Some(&shape.skew), "skew", None)?,
         })
     }
 }
 
-/// A kind's own table with the keys of a lobe's shape.
-pub(crate) fn with_shape(own: Schema, generator: &mut SchemaGenerator) -> Schema {
-    let shape = LobeShapeFile::json_schema(generator);
+/// A kind's own table with the keys of a lobe's shape, of which some must be there.
+pub(crate) fn with_shape(own: Schema, needed: &[&str], generator: &mut SchemaGenerator) -> Schema {
+    let mut shape = LobeShapeFile::json_schema(generator);
     let mut own = own;
-    for list in ["properties", "required"] {
-        let Some(more) = shape.get(list).cloned() else {
-            continue;
-        };
-        match (own.get_mut(list), more) {
-            (Some(Value::Object(own)), Value::Object(more)) => own.extend(more),
-            (Some(Value::Array(own)), Value::Array(more)) => own.extend(more),
-            (_, more) => {
-                own.insert(list.to_owned(), more);
-            }
-        }
+    let all = own.get_mut("properties").and_then(Value::as_object_mut);
+    if let (Some(own), Some(Value::Object(more))) = (all, shape.remove("properties")) {
+        own.extend(more);
     }
+    own.insert("required".to_owned(), needed.into());
     own
 }
 

@@ -1,5 +1,6 @@
 //! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
 
+pub(crate) mod conform;
 pub(crate) mod distribution;
 pub(crate) mod ends;
 pub(crate) mod facies;

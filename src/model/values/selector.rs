@@ -26,6 +26,8 @@ pub enum Selector {
 pub enum Pick {
     /// The feature with this id, or `background`.
     Id(String),
+    /// Of a feature that makes many volumes, those whose name begins with its id and this: `-3` of a set of clinoforms.
+    Part(String, String),
     /// Every feature of this kind.
     Kind(String),
     /// Every feature of this level.
@@ -197,7 +199,9 @@ impl Checker<'_> {
             }
             return Some(Pick::Id(id.to_owned()));
         }
-        let Some(&target) = family.index.get(id) else {
+        let part = self.part_of(id, family);
+        let target = family.index.get(id).copied();
+        let Some(target) = target.or(part.as_ref().map(|part| part.0)) else {
             let remedy = self.reader.hint(|| {
                 let mut known = ids(family.drafts);
                 known.push("background");
@@ -223,7 +227,10 @@ impl Checker<'_> {
                 format!("`{key}` names `{id}`, which is {age}, so this has no effect"),
             );
         }
-        Some(Pick::Id(id.to_owned()))
+        Some(match part {
+            Some((feature, part)) => Pick::Part(family.drafts[feature].id().to_owned(), part),
+            None => Pick::Id(id.to_owned()),
+        })
     }
 }
 
@@ -238,7 +245,7 @@ impl JsonSchema for Selector {
             "type": ["string", "array"],
             "anyOf": [{ "enum": words }, { "type": "array" }],
             "items": {
-                "description": "The id of a feature, or \"background\"; or one of { id = … }, { kind = … }, { level = … }, { facies = … }.",
+                "description": "The id of a feature, of one of a set (\"lower-3\"), or \"background\"; or one of { id = … }, { kind = … }, { level = … }, { facies = … }.",
                 "type": ["string", "object"],
                 "properties": {
                     "id": { "description": "The feature of this id.", "type": "string" },

@@ -1,0 +1,355 @@
+//! Lobes: their volumes, what they take from, and how they stack.
+#![cfg(feature = "occt")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+mod assembled;
+
+use std::f64::consts::PI;
+
+use assembled::{Built, from_text};
+use clinothem::assembly::Engine;
+use clinothem::model::owner::Owners;
+use clinothem::model::realisation::Realisation;
+use clinothem::model::selection::Selection;
+use glam::DVec3;
+
+/// A lobe in a block.
+const ONE: &str = r#"
+name = "Lobe"
+[domain]
+x = [0, 500]
+y = [0, 400]
+z = [-20, 0]
+facies = "mud"
+[facies.mud]
+[facies.sand]
+[[feature]]
+id = "lobe"
+kind = "lobe"
+facies = "sand"
+length = 300
+width = 180
+thickness = 6
+azimuth_deg = 60
+center = [250, 200]
+base = -12
+"#;
+
+fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
+    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
+}
+
+/// The height of the template over its thickness, by trying: the thickness is the greatest value of (1 − X²)(1 − λX).
+fn height(skew: f64) -> f64 {
+    let values = (-1000..=1000).map(|k| {
+        let x = f64::from(k) / 1000.0;
+        (1.0 - x * x) * (1.0 - skew * x)
+    });
+    1.0 / values.fold(0.0, f64::max)
+}
+
+/// π/2 a b H (1 − λτ/6).
+fn volume(length: f64, width: f64, thickness: f64, taper: f64, skew: f64) -> f64 {
+    PI / 8.0 * length * width * thickness * height(skew) * (1.0 - skew * taper / 6.0)
+}
+
+#[test]
+fn a_lobes_volume_is_that_of_its_closed_form_whatever_its_taper_and_skew() {
+    for (taper, skew, azimuth) in [
+        (0.5, 0.3, 60),
+        (0.0, 0.0, 0),
+        (0.9, -0.9, 133),
+        (-0.6, 0.7, 270),
+    ] {
+        let overrides = [
+            format!("feature.lobe.taper={taper}"),
+            format!("feature.lobe.skew={skew}"),
+            format!("feature.lobe.azimuth_deg={azimuth}"),
+        ];
+        let built = built(
+            ONE,
+            &overrides.each_ref().map(String::as_str),
+            Engine::Partition,
+        );
+        let wanted = volume(300.0, 180.0, 6.0, taper, skew);
+        let found = built.size("lobe");
+        assert!((found / wanted - 1.0).abs() < 2e-6, "{found} {wanted}");
+        assert_eq!(built.solids(), 2);
+    }
+}
+
+#[test]
+fn by_its_apex_or_its_middle_a_lobe_is_the_same_and_a_wall_along_its_axis_halves_it() {
+    let whole = volume(300.0, 180.0, 6.0, 0.5, 0.3);
+    let by_apex = ONE.replace("center = [250, 200]", "apex = [100, 200]");
+    let east = "feature.lobe.azimuth_deg=90";
+    let one = built(&by_apex, &[east], Engine::Partition);
+    assert!((one.size("lobe") / whole - 1.0).abs() < 2e-6);
+    let half = built(&by_apex, &[east, "domain.y=[200, 400]"], Engine::Partition);
+    assert!((half.size("lobe") / whole - 0.5).abs() < 2e-6);
+    // Its apex is on the wall, or beyond it.
+    for x in [0, -40] {
+        let cut = built(
+            &by_apex,
+            &[east, &format!("feature.lobe.apex=[{x}, 200]")],
+            Engine::Auto,
+        );
+        assert!(cut.size("lobe") <= whole * (1.0 + 1e-6));
+    }
+}
+
+#[test]
+fn on_a_horizon_a_lobe_loses_what_is_sunk_below_it() {
+    let text = ONE.replace(
+        "[[feature]]",
+        "[[feature]]\nid = \"floor\"\nkind = \"horizon\"\nfacies = \"mud\"\nsurface = { level = -12 }\n[[feature]]",
+    )
+    .replace("base = -12", "parent = \"floor\"");
+    for sunk in [0.02, 0.3] {
+        let one = built(
+            &text,
+            &[&format!("feature.lobe.sunk_fraction={sunk}")],
+            Engine::Partition,
+        );
+        // Above the level s of its thickness: for λ = 0 it is what is left of a paraboloid, H (1 − r² − s).
+        let plain = built(
+            &text,
+            &[
+                &format!("feature.lobe.sunk_fraction={sunk}"),
+                "feature.lobe.skew=0",
+            ],
+            Engine::Partition,
+        );
+        let wanted = volume(300.0, 180.0, 6.0, 0.5, 0.0) * (1.0_f64 - sunk).powi(2);
+        let found = plain.size("floor/lobe");
+        assert!((found / wanted - 1.0).abs() < 2e-6, "{found} {wanted}");
+        assert!(one.size("floor/lobe") > 0.0);
+        assert_eq!(one.contact("floor/lobe", "background") > 0.0, true);
+    }
+}
+
+#[test]
+fn younger_lobes_with_flat_bases_cut_older_ones_wherever_they_lie() {
+    let two = |x: i32, y: i32, base: f64, azimuth: i32| {
+        format!(
+            "{ONE}{}",
+            format_args!(
+                r#"
+[[feature]]
+id = "younger"
+kind = "lobe"
+facies = "mud"
+length = 200
+width = 150
+thickness = 5
+azimuth_deg = {azimuth}
+center = [{x}, {y}]
+base = {base}
+"#
+            )
+        )
+    };
+    let (whole, younger) = (
+        volume(300.0, 180.0, 6.0, 0.5, 0.3),
+        volume(200.0, 150.0, 5.0, 0.5, 0.3),
+    );
+    for (x, y, base, azimuth) in [
+        (300, 220, -10.0, 120),
+        (250, 200, -11.0, 60),
+        (260, 190, -9.0, 200),
+        (180, 150, -14.0, 10),
+        (250, 200, -7.5, 300),
+    ] {
+        let one = built(&two(x, y, base, azimuth), &[], Engine::Partition);
+        assert!((one.size("younger") / younger - 1.0).abs() < 2e-6);
+        let left = one.size("lobe") / whole;
+        assert!(left > 0.05 && left < 1.0, "{left}");
+    }
+}
+
+#[test]
+fn the_general_fuse_makes_the_same_lobe() {
+    let [one, other] =
+        [Engine::Partition, Engine::Occt].map(|engine| built(ONE, &[], engine).size("lobe"));
+    assert!((one - other).abs() < 1e-6 * one, "{one} {other}");
+}
+
+/// Lobes on a floor.
+const STACK: &str = r#"
+name = "Stack"
+[domain]
+x = [0, 1200]
+y = [0, 1000]
+z = [-40, 0]
+facies = "mud"
+[facies.mud]
+[facies.sand]
+[facies.drape]
+[[feature]]
+id = "floor"
+kind = "horizon"
+facies = "drape"
+surface = { level = -35 }
+[[feature]]
+id = "lobes"
+kind = "lobes"
+parent = "floor"
+count = 8
+facies = "sand"
+length = { uniform = [300, 420] }
+width = { uniform = [200, 280] }
+thickness = { uniform = [3, 5] }
+azimuth_deg = { uniform = [60, 120] }
+region = { x = [300, 900], y = [300, 700] }
+"#;
+
+#[test]
+fn stacked_lobes_keep_what_they_have_and_leave_nothing_between() {
+    let one = built(STACK, &["feature.lobes.compensation=20"], Engine::Partition);
+    // The oldest one lies on a level floor, sunk by a two-hundredth of its thickness.
+    let instance = &one.realisation.instances[one.volume("floor/lobes-1") - 1];
+    let drawn = |key: &str| {
+        let found = instance.drawn.iter().find(|one| one.0 == key);
+        found.map(|one| one.1).unwrap()
+    };
+    let whole = volume(
+        drawn("length"),
+        drawn("width"),
+        drawn("thickness"),
+        0.5,
+        0.3,
+    );
+    let kept = one.size("floor/lobes-1") / whole;
+    assert!(kept > 0.985 && kept < 1.0, "{kept}");
+    // What is around them is one piece above the lobes, and nothing is below or between.
+    assert_eq!(one.pieces("floor"), 1);
+    for number in 1..=8 {
+        assert!(one.size(&format!("floor/lobes-{number}")) > 0.0);
+    }
+}
+
+/// Of a set of lobes: thickness by intervals of equal numbers of lobes, at places in plan.
+fn intervals(seed: u64, compensation: f64, count: usize, of: usize) -> Vec<Vec<f64>> {
+    let overrides = [
+        format!("seed={seed}"),
+        format!("feature.lobes.compensation={compensation}"),
+        format!("feature.lobes.count={count}"),
+    ];
+    let model = from_text(STACK, &overrides.each_ref().map(String::as_str));
+    let made = Realisation::new(&model, &Selection::default()).unwrap();
+    let owners = Owners::new(&made).unwrap();
+    let number = |name: &str| name.strip_prefix("floor/lobes-")?.parse::<usize>().ok();
+    let numbers: Vec<Option<usize>> = made.volumes.iter().map(|one| number(&one.name)).collect();
+    let places = (0..12 * 8).map(|k| (350 + 45 * (k % 12), 340 + 45 * (k / 12)));
+    let step = 0.1;
+    places
+        .map(|(x, y)| {
+            let mut thickness = vec![0.0; count / of];
+            for k in 0..400 {
+                let z = -39.95 + step * f64::from(k);
+                let owner = owners.at(DVec3::new(f64::from(x), f64::from(y), z));
+                if let Some(number) = owner.and_then(|owner| numbers[owner]) {
+                    thickness[(number - 1) / of] += step;
+                }
+            }
+            thickness
+        })
+        .collect()
+}
+
+/// The coefficient of variation of the thickness over the plan, of intervals of some numbers of lobes (Straub et al. 2009).
+fn variation(intervals: &[Vec<f64>], of: usize) -> f64 {
+    let all = intervals[0].len() / of;
+    let sum = (0..all).map(|at| {
+        let sums: Vec<f64> = intervals
+            .iter()
+            .map(|one| one[at * of..(at + 1) * of].iter().sum())
+            .collect();
+        let mean = sums.iter().sum::<f64>() / sums.len() as f64;
+        let square = sums.iter().map(|one| (one - mean).powi(2)).sum::<f64>() / sums.len() as f64;
+        square.sqrt() / mean
+    });
+    sum.sum::<f64>() / all as f64
+}
+
+#[test]
+fn the_compensation_index_of_the_model_is_greater_where_lobes_prefer_hollows() {
+    // The index is the slope by which the variation falls with the number of lobes.
+    let index = |compensation: f64| {
+        let seeds = [1, 2, 3];
+        let slopes = seeds.map(|seed| {
+            let made = intervals(seed, compensation, 24, 3);
+            (variation(&made, 1) / variation(&made, 8)).ln() / 8_f64.ln()
+        });
+        slopes.iter().sum::<f64>() / 3.0
+    };
+    let [random, compensated] = [0.0, 20.0].map(index);
+    assert!(
+        compensated > random + 0.15 && random > 0.2 && compensated < 1.1,
+        "{random} {compensated}"
+    );
+}
+
+#[test]
+fn without_compensation_lobes_cover_what_a_boolean_model_does() {
+    let mut covered = [0.0; 2];
+    for seed in 1..=8 {
+        let overrides = [
+            format!("seed={seed}"),
+            "feature.lobes.compensation=0".to_owned(),
+            "feature.lobes.count=10".to_owned(),
+            "feature.lobes.length=150".to_owned(),
+            "feature.lobes.width=100".to_owned(),
+            "feature.lobes.thickness=4".to_owned(),
+            "feature.lobes.region={ x = [100, 700], y = [100, 600] }".to_owned(),
+        ];
+        let model = from_text(STACK, &overrides.each_ref().map(String::as_str));
+        let made = Realisation::new(&model, &Selection::default()).unwrap();
+        let owners = Owners::new(&made).unwrap();
+        for k in 0..45 * 35 {
+            let at = (180 + 10 * (k % 45), 180 + 10 * (k / 45));
+            // A fiftieth of the thickness above the floor, on which thin rims are lost.
+            let owner = owners.at(DVec3::new(f64::from(at.0), f64::from(at.1), -35.0 + 0.04));
+            let is_lobe = owner.is_some_and(|owner| made.volumes[owner].name.contains("lobes"));
+            covered[usize::from(is_lobe)] += 1.0;
+        }
+    }
+    let share = covered[1] / (covered[0] + covered[1]);
+    // Of a paraboloid sunk by a two-hundredth, what is higher than another hundredth covers 1.5 % less.
+    let plan = PI / 4.0 * 150.0 * 100.0 * 0.985;
+    let wanted = 1.0 - (-10.0 * plan / (600.0 * 500.0)).exp();
+    // Eight sets of ten: the share of one varies by some 0.05.
+    assert!((share - wanted).abs() < 0.05, "{share} {wanted}");
+}
+
+#[test]
+fn eroding_lobes_take_from_older_ones() {
+    let eroding = ["feature.lobes.erosion=0.3", "feature.lobes.count=4"];
+    let plain = ["feature.lobes.count=4"];
+    let [one, other] = [&eroding[..], &plain[..]].map(|all| built(STACK, all, Engine::Partition));
+    let sum = |built: &Built| -> f64 {
+        (1..=4)
+            .map(|number| built.size(&format!("floor/lobes-{number}")))
+            .sum()
+    };
+    // The youngest has all of itself above the floor; older ones lose by it.
+    assert!(one.size("floor/lobes-4") > other.size("floor/lobes-4"));
+    assert!(sum(&one) > 0.5 * sum(&other));
+}
+
+#[test]
+fn a_lobe_that_is_left_out_leaves_its_place_to_the_unit() {
+    let selection = assembled::without(&["floor/lobes-2"]);
+    let model = from_text(STACK, &["feature.lobes.count=3"]);
+    let whole = Built::new(model.clone(), &Selection::default(), Engine::Partition).unwrap();
+    let bare = Built::new(model, &selection, Engine::Partition).unwrap();
+    let [one, other] = ["floor/lobes-1", "floor/lobes-3"];
+    assert!((whole.size(one) - bare.size(one)).abs() < 1e-6 * whole.size(one));
+    // What it lay on is gone; it takes that place, too.
+    assert!(bare.size(other) >= whole.size(other) * (1.0 - 1e-6));
+    assert!(bare.realisation.volume("floor/lobes-2").is_none());
+}
