@@ -151,7 +151,15 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         let table = &schema["properties"]["feature"]["items"];
         let channel = Keys::of(&table["then"]);
         let ids = [
-            "id", "kind", "enabled", "count", "level", "parent", "facies",
+            "id",
+            "kind",
+            "name",
+            "enabled",
+            "count",
+            "level",
+            "parent",
+            "facies",
+            "properties",
         ];
         let rules = ["removes", "removed_by", "preserve"];
         let keys = ids.into_iter().chain(rules);

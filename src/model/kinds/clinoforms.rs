@@ -314,10 +314,10 @@ impl ClinoformsSpec {
                 None => format!("-{clinothem}"),
                 Some(belt) => format!("-{clinothem}/{}", belt.name),
             },
-            body: Body::Side(Arc::new(side.sheet)),
             from,
             facies: belt.map(|belt| belt.facies),
             drawn: side.drawn,
+            ..Part::of(Body::Side(Arc::new(side.sheet)))
         }
     }
 }

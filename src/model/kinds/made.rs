@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::features::body::Body;
+use crate::features::fabric::Fabric;
 use crate::features::horizon::Horizon;
 use crate::features::reach::Reach;
 use crate::model::domain::Domain;
@@ -73,6 +74,11 @@ pub(crate) struct Part {
     pub(crate) facies: Option<usize>,
     /// What was drawn, by parameter.
     pub(crate) drawn: Vec<(String, f64)>,
+    /// How its layers lie, if its body, its channel and its unit do not tell.
+    pub(crate) fabric: Option<Fabric>,
+    /// Of a layer: the fraction of the way from the base to the top of what is divided at which it has its properties. All layers of
+    /// an instance share the draws of these.
+    pub(crate) fraction: Option<f64>,
 }
 
 /// What a volume takes from.
@@ -113,6 +119,8 @@ impl Part {
             from: TakesFrom::Anything,
             facies: None,
             drawn: Vec::new(),
+            fabric: None,
+            fraction: None,
         }
     }
 }

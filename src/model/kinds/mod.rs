@@ -19,7 +19,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use super::draft::FeatureFile;
 use super::draws::{Draws, Reason};
 use super::nature::Nature;
-use super::tables::by_kind;
+use super::tables::by_kind_but;
 use channel::ChannelSpec;
 use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
@@ -208,5 +208,6 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         .iter()
         .map(|kind| (kind.nature.name, (kind.schema)(generator)))
         .collect();
-    json_schema!({ "type": "array", "items": by_kind(&common, &kinds) })
+    let lacking = |kind: &str| named(kind).map_or(Vec::new(), |kind| kind.nature.lacking());
+    json_schema!({ "type": "array", "items": by_kind_but(&common, &kinds, &lacking) })
 }

@@ -4,6 +4,7 @@ pub(crate) mod distribution;
 pub(crate) mod facies;
 pub(crate) mod limits;
 pub(crate) mod profile;
+pub(crate) mod property;
 pub(crate) mod quantity;
 pub(crate) mod selector;
 pub(crate) mod surface;

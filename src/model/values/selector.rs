@@ -237,6 +237,7 @@ impl JsonSchema for Selector {
         json_schema!({
             "type": ["string", "array"],
             "anyOf": [{ "enum": words }, { "type": "array" }],
+            "examples": ["older", "nothing", ["trunk", "background"], [{ "kind": "channel" }, { "level": 2 }]],
             "items": {
                 "description": "The id of a feature, or \"background\"; or one of { id = … }, { kind = … }, { level = … }, { facies = … }.",
                 "type": ["string", "object"],

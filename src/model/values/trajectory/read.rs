@@ -30,9 +30,15 @@ struct Table<'d> {
 
 impl Checker<'_> {
     pub(crate) fn trajectory(&self, node: NodeId, draft: &Draft) -> Option<TrajectorySpec> {
+        let name = format!("the trajectory of {}", draft.name);
+        if let Some(remedy) = self.table_to_paste(node) {
+            let found = self.reader.tree.describe(node);
+            let message = format!("expected a table for {name}, found {found}");
+            self.reader.wrong(node, message, remedy);
+            return None;
+        }
         let common: TrajectoryFile = self.reader.table(node)?;
         let table = Table { node, draft };
-        let name = format!("the trajectory of {}", draft.name);
         let (at, kind) = match common.kind {
             Field::Missing => {
                 self.reader.wrong(
@@ -64,6 +70,24 @@ impl Checker<'_> {
         };
         self.reader.close(node, &name);
         spec
+    }
+
+    /// What to write in the place of a word, or of a list of points, that is to be a trajectory.
+    fn table_to_paste(&self, node: NodeId) -> Option<String> {
+        let list = "{ kind = \"points\", points = [[0, 400], [500, 600], [1000, 500]] }";
+        let table = match self.reader.tree.value(node) {
+            Value::List(_) => list,
+            Value::Text(word) => match suggest::nearest(word, &KINDS) {
+                Some("line") => "{ kind = \"line\", azimuth_deg = 45 }",
+                Some("points") => list,
+                Some("parametric") => {
+                    "{ kind = \"parametric\", x = \"1000 * t\", y = \"500 + 80 * sin(2 * pi * t)\" }"
+                }
+                _ => suggest::MEANDERING,
+            },
+            _ => return None,
+        };
+        Some(format!("write a table, for example: trajectory = {table}"))
     }
 
     /// Says so if a trajectory is written in world coordinates.
