@@ -152,7 +152,16 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         let table = &schema["properties"]["feature"]["items"];
         let channel = Keys::of(&table["then"]);
         let ids = [
-            "id", "kind", "enabled", "count", "level", "parent", "along", "facies",
+            "id",
+            "kind",
+            "name",
+            "enabled",
+            "count",
+            "level",
+            "parent",
+            "along",
+            "facies",
+            "properties",
         ];
         let rules = ["conform", "removes", "removed_by", "preserve"];
         let keys = ids.into_iter().chain(rules);

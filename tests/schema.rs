@@ -84,7 +84,7 @@ fn the_schema_refuses_the_commonest_slips() {
         ("x = [0, 1000]", "x = [0, 500, 1000]"),
         ("x = [0, 1000]", "x = 1000"),
         ("porosity = 0.08", "porosity = 8"),
-        ("color = \"#9a8f78\"", "color = \"grey\""),
+        ("color = \"#9a8f78\"", "color = \"greyish\""),
         ("width = 50", ""),
         ("width = 50", "width = \"50 m\""),
         ("width = 50", "width = { triangular = [1, 2] }"),
@@ -174,9 +174,22 @@ const POINTED: &[(&str, &str, &str, &str)] = &[
     (GOOD, "x = [0, 1000]", "xx = [0, 1000]", "/domain/xx"),
     (GOOD, "x = [0, 1000]", "x = [0, \"1 km\"]", "/domain/x/1"),
     (GOOD, "color = \"#9a8f78\"", "colour = \"#9a8f78\"", "/facies/mud/colour"),
+    (GOOD, "color = \"#9a8f78\"", "color = \"greyish\"", "/facies/mud/color"),
+    (GOOD, "color = \"#9a8f78\"", "color = 7", "/facies/mud/color"),
+    (GOOD, "count = 3", "name = 7", "/feature/0/name"),
     (GOOD, "porosity = 0.08", "porosity = 8", "/facies/mud/porosity"),
     (GOOD, "[0.5, 0.5, 0.01]", "\"500 mD\"", "/facies/mud/permeability"),
-    (GOOD, "[0.5, 0.5, 0.01]", "{ lognormal = [500, 200] }", "/facies/mud/permeability"),
+    (GOOD, "[0.5, 0.5, 0.01]", "{ lognormal = [500] }", "/facies/mud/permeability/lognormal"),
+    (GOOD, "[0.5, 0.5, 0.01]", "{ dip = 500, strike = 500 }", "/facies/mud/permeability"),
+    (GOOD, "[0.5, 0.5, 0.01]", "{ dip = 500, strike = 500, normal = \"5 mD\" }", "/facies/mud/permeability/normal"),
+    (GOOD, "[0.5, 0.5, 0.01]", "{ horizontal = 500, vertical = 5 }", "/facies/mud/permeability/vertical"),
+    (GOOD, "[0.5, 0.5, 0.01]", "{ base = 5, top = 500, scale = \"ln\" }", "/facies/mud/permeability/scale"),
+    (GOOD, "porosity = 0.08", "net = \"yes\"", "/facies/mud/net"),
+    (GOOD, "porosity = 0.08", "sw = 30", "/facies/mud/sw"),
+    (GOOD, "porosity = 0.08", "porosity = [0.1, 0.1, 0.1]", "/facies/mud/porosity"),
+    (GOOD, "porosity = 0.08", "density = \"2.65\"", "/facies/mud/density"),
+    (GOOD, "count = 3", "properties = { porosity = 8 }", "/feature/0/properties/porosity"),
+    (GOOD, "count = 3", "properties = 7", "/feature/0/properties"),
     (GOOD, "[0.5, 0.5, 0.01]", "[0.5, -0.5, 0.01]", "/facies/mud/permeability/1"),
     (GOOD, "kind = \"channel\"", "kind = \"chanel\"", "/feature/0/kind"),
     (GOOD, "width = 50", "widht = 50", "/feature/0/widht"),
@@ -200,6 +213,8 @@ const POINTED: &[(&str, &str, &str, &str)] = &[
     (GOOD, "kind = \"line\"", "kind = \"lime\"", "/feature/0/trajectory/kind"),
     (GOOD, "from = [0, 500]", "from = [0, 500], range = [0, 1]", "/feature/0/trajectory/range"),
     (SHOREFACE, "base = { level = -55 }", "base = -55", "/domain/base"),
+    (SHOREFACE, "relation = \"onlapping\"", "parent = \"lower\"", "/feature/3/parent"),
+    (SHOREFACE, "relation = \"onlapping\"", "removes = \"older\"", "/feature/3/removes"),
     (SHOREFACE, "base = { level = -55 }", "base = { lvel = -55 }", "/domain/base/lvel"),
     (SHOREFACE, "base = { level = -55 }", "base = { level = \"-55\" }", "/domain/base/level"),
     (SHOREFACE, "dip_deg = 1", "dip = 1", "/domain/top/dipping/dip"),
@@ -285,4 +300,206 @@ fn every_key_of_the_schema_has_a_description() {
     let mut bare = Vec::new();
     walk(&schema(), "", &mut bare);
     assert!(bare.is_empty(), "{bare:#?}");
+}
+
+/// The models that the reference makes of its own example and one feature of each kind.
+fn one_of_each_kind() -> Vec<(String, Value)> {
+    let reference = include_str!("../docs/model-file.md");
+    let blocks = reference.split("```toml\n").skip(1);
+    let blocks: Vec<&str> = blocks
+        .map(|rest| rest.split("```").next().unwrap())
+        .collect();
+    let whole = blocks.iter().find(|block| block.starts_with("name"));
+    let whole = whole.unwrap();
+    let features = blocks
+        .iter()
+        .filter(|block| block.starts_with("[[feature]]"))
+        .map(|block| format!("{whole}\n{block}"));
+    let models: Vec<Value> = features
+        .chain([(*whole).to_owned()])
+        .map(|text| as_json(&text))
+        .collect();
+    let last = |model: &Value| model["feature"].as_array().unwrap().last().unwrap().clone();
+    models
+        .into_iter()
+        .map(|model| {
+            let kind = last(&model)["kind"].as_str().unwrap().to_owned();
+            (kind, model)
+        })
+        .collect()
+}
+
+/// A model from JSON, without the places of its features in that text.
+fn from_json(model: &Value) -> Result<Model, String> {
+    let source = Source::from_text("model.json", model.to_string(), Format::Json);
+    let mut model = Model::check(&source).map_err(|defects| defects.to_string())?;
+    for feature in &mut model.features {
+        feature.place = clinothem::model::Place::default();
+    }
+    model.notes.clear();
+    Ok(model)
+}
+
+/// The keys that a kind may have, with what the schema says of them.
+fn keys_of_kind(table: &Value, kind: &str) -> Vec<(String, Value)> {
+    let mut at = table;
+    while at["then"]["title"] != *kind {
+        at = at.get("else").unwrap_or_else(|| panic!("no kind {kind}"));
+    }
+    let own = at["then"]["properties"].as_object().unwrap();
+    let keys = own.iter().map(|(key, schema)| match schema {
+        Value::Bool(true) => (key.clone(), table["properties"][key].clone()),
+        schema => (key.clone(), schema.clone()),
+    });
+    keys.collect()
+}
+
+#[test]
+fn a_default_of_the_schema_is_what_a_key_that_is_left_out_means() {
+    let schema = schema();
+    let table = &schema["properties"]["feature"]["items"];
+    let mut tried = Vec::new();
+    // Where a table stands in the model, by keys and numbers; and what may stand in it.
+    let mut places: Vec<(Value, Vec<Value>, Vec<(String, Value)>)> = Vec::new();
+    for (kind, model) in one_of_each_kind() {
+        let last = model["feature"].as_array().unwrap().len() - 1;
+        let feature = vec![Value::from("feature"), Value::from(last)];
+        places.push((model.clone(), feature.clone(), keys_of_kind(table, &kind)));
+        if let Some(way) = model["feature"][last]["trajectory"]["kind"].as_str() {
+            let keys = keys_of_kind(&table["properties"]["trajectory"], way);
+            let place = [feature, vec![Value::from("trajectory")]].concat();
+            places.push((model.clone(), place, keys));
+        }
+    }
+    let model = places[0].0.clone();
+    for (place, keys) in [
+        (vec![], &schema["properties"]),
+        (
+            vec![Value::from("domain")],
+            &schema["$defs"]["Domain"]["properties"],
+        ),
+    ] {
+        let keys = keys.as_object().unwrap().clone().into_iter().collect();
+        places.push((model.clone(), place, keys));
+    }
+    for (model, place, keys) in places {
+        let without = from_json(&model).unwrap();
+        for (key, schema) in keys {
+            let mut with = model.clone();
+            let mut at = &mut with;
+            for step in &place {
+                at = match step.as_u64() {
+                    Some(number) => &mut at[usize::try_from(number).unwrap()],
+                    None => &mut at[step.as_str().unwrap()],
+                };
+            }
+            let Some(default) = schema.get("default") else {
+                continue;
+            };
+            if at.get(&key).is_none() {
+                at[&key] = default.clone();
+                let with = from_json(&with);
+                assert_eq!(with.as_ref(), Ok(&without), "{place:?} {key} = {default}");
+                tried.push(key);
+            }
+        }
+    }
+    assert!(tried.len() > 40, "{tried:?}");
+    for key in [
+        "seed",
+        "count",
+        "enabled",
+        "angle_limit_deg",
+        "surfaces",
+        "relation",
+    ] {
+        assert!(tried.contains(&key.to_owned()), "{key}: {tried:?}");
+    }
+}
+
+#[test]
+fn the_examples_of_the_schema_are_admitted_where_they_stand() {
+    fn walk(value: &Value, found: &mut Vec<Value>) {
+        match value {
+            Value::Object(object) => {
+                if object.get("examples").is_some_and(Value::is_array) {
+                    found.push(value.clone());
+                }
+                object.values().for_each(|inner| walk(inner, found));
+            }
+            Value::Array(values) => values.iter().for_each(|inner| walk(inner, found)),
+            _ => {}
+        }
+    }
+    let schema = schema();
+    let mut found = Vec::new();
+    walk(&schema, &mut found);
+    let mut examples = 0;
+    for mut place in found {
+        let here = place["examples"].take();
+        place["$defs"] = schema["$defs"].clone();
+        place.as_object_mut().unwrap().remove("examples");
+        let validator = jsonschema::validator_for(&place).unwrap();
+        for example in here.as_array().unwrap() {
+            assert!(validator.is_valid(example), "{example}");
+            examples += 1;
+        }
+    }
+    assert!(examples >= 20, "{examples}");
+}
+
+#[test]
+fn the_examples_of_the_schema_are_what_the_program_takes() {
+    let schema = schema();
+    let mut places = vec![
+        ("feature.channel.width", schema["$defs"]["Profile"].clone()),
+        (
+            "feature.channel.removes",
+            schema["$defs"]["Selector"].clone(),
+        ),
+        ("domain.base", schema["$defs"]["Surface"].clone()),
+        (
+            "feature.second.trajectory.amplitude",
+            schema["$defs"]["Quantity"].clone(),
+        ),
+    ];
+    for (place, keys) in [
+        ("facies.mud", &schema["$defs"]["Facies"]["properties"]),
+        (
+            "feature.channel",
+            &schema["properties"]["feature"]["items"]["properties"],
+        ),
+    ] {
+        for (key, value) in keys.as_object().unwrap() {
+            if value.get("examples").is_some() && ["color", "trajectory"].contains(&key.as_str()) {
+                places.push((
+                    Box::leak(format!("{place}.{key}").into_boxed_str()),
+                    value.clone(),
+                ));
+            }
+        }
+    }
+    let mut tried = 0;
+    for (place, schema) in places {
+        for example in schema["examples"].as_array().unwrap() {
+            // Names of features are those of another model.
+            let text = example.to_string().replace("trunk", "second");
+            let mut model = as_json(GOOD);
+            // The examples of surfaces are as large as this.
+            model["domain"]["x"] = serde_json::json!([0, 400]);
+            model["domain"]["y"] = serde_json::json!([0, 700]);
+            let mut at = &mut model;
+            for step in place.split('.') {
+                at = match at {
+                    Value::Array(list) => list.iter_mut().find(|one| one["id"] == step).unwrap(),
+                    other => &mut other[step],
+                };
+            }
+            *at = serde_json::from_str(&text).unwrap();
+            let taken = from_json(&model).err();
+            assert_eq!(taken, None, "{place} = {example}");
+            tried += 1;
+        }
+    }
+    assert!(tried >= 20, "{tried}");
 }

@@ -7,7 +7,7 @@ use crate::model::selection::Selection;
 /// The model and what is changed in it for this run.
 #[derive(Debug, clap::Args)]
 pub(super) struct ModelArgs {
-    /// The model file (TOML, or JSON if its name ends in .json).
+    /// The model file (TOML, or JSON if its name ends in .json); - reads it from standard input.
     #[arg(value_name = "MODEL")]
     pub(super) model: PathBuf,
     /// Draw with this seed instead of the model's.
@@ -17,7 +17,7 @@ pub(super) struct ModelArgs {
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
     /// Leave out a feature (channel) or a volume (channel-3; a clinothem, shore/lower-2; a belt of it, shore/lower-2/distal), with its
-    /// children; repeatable. What it would hold goes to what is older.
+    /// children; repeatable. What lies in only one place needs no path: lower-2. What it would hold goes to what is older.
     #[arg(long, value_name = "ID", num_args = 1..)]
     pub(super) without: Vec<String>,
     /// Leave out levels deeper than this (1 = largest).
@@ -33,8 +33,16 @@ impl ModelArgs {
         }
     }
 
+    /// Whether the model comes from standard input.
+    pub(super) fn is_standard_input(&self) -> bool {
+        self.model.as_os_str() == "-"
+    }
+
     /// The model file's name without folder and ending: the base of output names.
     pub(super) fn stem(&self) -> String {
+        if self.is_standard_input() {
+            return "model".to_owned();
+        }
         self.model.file_stem().map_or_else(
             || "model".to_owned(),
             |stem| stem.to_string_lossy().into_owned(),

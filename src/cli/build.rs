@@ -41,6 +41,9 @@ pub(super) struct Args {
     /// The application protocol that STEP files declare.
     #[arg(long, value_enum, default_value_t)]
     step_schema: Schema,
+    /// Report between what the permeability as a whole lies, whatever the arrangement: the harmonic and the arithmetic mean.
+    #[arg(long)]
+    bounds: bool,
     #[command(flatten)]
     pub(super) engine: EngineArgs,
     /// Print the report as JSON instead of tables.
@@ -189,6 +192,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         plan: &built.subject.plan,
         assembly: &built.assembly,
         level: args.engine.level(),
+        with_bounds: args.bounds,
     });
     progress.stage("writing");
     progress.aside(|| say(&report.empty));

@@ -28,9 +28,14 @@ pub(super) struct Loaded {
     pub(super) timings: Vec<(&'static str, Duration)>,
 }
 
-/// Reads and checks a model; `json` adds the defects as JSON on standard output.
-pub(super) fn model(args: &ModelArgs, json: bool) -> Result<Model, Failure> {
-    let mut source = Source::read(&args.model).map_err(|error| match &error {
+/// Reads and checks a model, and finds what is to be left out of it; `json` adds the defects as JSON on standard output.
+fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), Failure> {
+    let read = if args.is_standard_input() {
+        Source::read_stream("standard input", std::io::stdin().lock())
+    } else {
+        Source::read(&args.model)
+    };
+    let mut source = read.map_err(|error| match &error {
         ReadError::Io { source, .. } => Failure::Surroundings(format!("{error}: {source}")),
         _ => Failure::Wrong(error.to_string()),
     })?;
@@ -44,20 +49,20 @@ pub(super) fn model(args: &ModelArgs, json: bool) -> Result<Model, Failure> {
         text: defects.render(std::io::stderr().is_terminal()),
         json: json.then(|| defects.to_json().to_string()),
     })?;
-    args.selection()
-        .check(&model)
+    let selection = args
+        .selection()
+        .found_in(&model)
         .map_err(|error| Failure::Wrong(error.to_string()))?;
-    Ok(model)
+    Ok((model, selection))
 }
 
 /// The same, with the draws made and the surfaces built.
 pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
     let started = Instant::now();
     start_threads()?;
-    let model = model(args, json)?;
+    let (model, selection) = model(args, json)?;
     let reading = started.elapsed();
     let started = Instant::now();
-    let selection = args.selection();
     let realisation =
         Realisation::new(&model, &selection).map_err(|error| Failure::Wrong(error.to_string()))?;
     let timings = vec![("model file", reading), ("surfaces", started.elapsed())];

@@ -1,10 +1,13 @@
 //! `clinothem locate`: which volume holds a point, and why.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::args::{ModelArgs, finite};
 use super::failure::Failure;
 use super::{load, print};
+use crate::model::Property;
 
 /// Tell which volume holds a point, and which bodies had a say.
 ///
@@ -51,6 +54,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     let volumes = &loaded.realisation.volumes;
     let name = |volume: usize| volumes[volume].name.as_str();
+    let rock = &loaded.realisation.properties[location.owner];
     if args.json {
         let history: Vec<_> = location
             .history
@@ -64,10 +68,21 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .iter()
             .map(|volume| name(*volume))
             .collect();
+        let numbers = |property: &Property| match property {
+            Property::Scalar(value) => serde_json::json!(value),
+            Property::Vector(values) => serde_json::json!(values),
+            Property::Tensor(rows) => serde_json::json!(rows),
+        };
+        let properties: BTreeMap<&str, serde_json::Value> = rock
+            .values
+            .iter()
+            .map(|(name, property)| (name.as_str(), numbers(property)))
+            .collect();
         let answer = serde_json::json!({
             "point": [args.x, args.y, args.z],
             "volume": name(location.owner),
             "facies": volumes[location.owner].facies,
+            "properties": properties,
             "boundary_of": boundary,
             "history": history,
         });
@@ -75,6 +90,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let facies = &volumes[location.owner].facies;
     let mut lines = vec![format!("{} ({facies})", name(location.owner))];
+    for (property, value) in &rock.values {
+        let numbers: Vec<String> = value.numbers().iter().map(f64::to_string).collect();
+        lines.push(format!("{property}: {}", numbers.join(" ")));
+    }
     if !location.boundary.is_empty() {
         let names: Vec<&str> = location
             .boundary

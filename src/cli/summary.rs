@@ -15,7 +15,10 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
     volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
     for volume in report.volumes.iter().take(MOST_ROWS) {
         volumes.add_row([
-            volume.name.clone(),
+            match &volume.display_name {
+                None => volume.name.clone(),
+                Some(label) => format!("{} ({label})", volume.name),
+            },
             volume.facies.clone(),
             volume.solids.len().to_string(),
             grouped(volume.volume_m3),
@@ -42,7 +45,7 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
         let _ = writeln!(
             out,
             "{}: {} m³, {:.2} % in {} connected group{}",
-            facies.name,
+            facies.display_name.as_ref().unwrap_or(&facies.name),
             grouped(facies.volume_m3),
             100.0 * facies.fraction,
             facies.connected.len(),
@@ -51,6 +54,14 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
     }
     if let Some(net_to_gross) = report.net_to_gross {
         let _ = writeln!(out, "net-to-gross: {net_to_gross:.4}");
+    }
+    if let Some(pores) = report.totals.pore_volume_m3 {
+        let porosity = pores / report.domain.volume_m3;
+        let _ = writeln!(
+            out,
+            "pore volume: {} m³, mean porosity {porosity:.4}",
+            grouped(pores)
+        );
     }
     for rejected in &report.rejected_draws {
         let _ = writeln!(

@@ -18,6 +18,7 @@ pub fn csv(report: &Report) -> Result<String, ExportError> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let fixed = [
         "volume",
+        "display_name",
         "feature",
         "kind",
         "level",
@@ -33,6 +34,7 @@ pub fn csv(report: &Report) -> Result<String, ExportError> {
     for volume in &report.volumes {
         let mut record = vec![
             volume.name.clone(),
+            volume.display_name.clone().unwrap_or_default(),
             volume.feature.clone(),
             volume.kind.clone(),
             volume.level.to_string(),
@@ -53,14 +55,19 @@ pub fn csv(report: &Report) -> Result<String, ExportError> {
     String::from_utf8(bytes).map_err(|error| failed(&error))
 }
 
-/// A property in one cell: numbers of a vector are separated by spaces.
+/// A property in one cell: one number, three with spaces between them, or the six of a tensor: xx yy zz xy yz xz.
 fn cell(value: &serde_json::Value) -> String {
-    match value {
-        serde_json::Value::Array(values) => values
-            .iter()
-            .map(ToString::to_string)
-            .collect::<Vec<_>>()
-            .join(" "),
-        other => other.to_string(),
-    }
+    let numbers: Vec<&serde_json::Value> = match value {
+        serde_json::Value::Array(rows) => match rows.iter().map(|row| row.as_array()).collect() {
+            None => rows.iter().collect(),
+            Some::<Vec<_>>(rows) => {
+                let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+                let at = |(row, column): (usize, usize)| rows.get(row)?.get(column);
+                places.into_iter().filter_map(at).collect()
+            }
+        },
+        other => vec![other],
+    };
+    let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+    numbers.join(" ")
 }

@@ -13,6 +13,7 @@ pub mod conform;
 pub mod ellipsoid;
 pub mod extent;
 pub mod extrusion;
+pub mod fabric;
 pub mod frame;
 pub mod free_clinoform;
 pub mod horizon;

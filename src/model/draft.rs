@@ -14,6 +14,7 @@ use super::suggest;
 use super::tree::{NodeId, quoted};
 use super::values::conform::ConformFile;
 use super::values::facies::FaciesList;
+use super::values::property::Properties;
 use super::values::selector::Selector;
 
 /// The deepest hierarchical level.
@@ -28,6 +29,8 @@ pub(crate) struct FeatureFile {
     pub(crate) id: Field<String>,
     /// What it is.
     pub(crate) kind: Field<String>,
+    /// What it is called where people read, in any alphabet; its id if left out.
+    pub(crate) name: Option<Field<String>>,
     /// Whether it takes part; true if left out. False leaves it out with its children, and changes no other feature's draws.
     pub(crate) enabled: Option<Field<bool>>,
     /// How many are made, in each instance of the parent: `channel-1` (the oldest), `channel-2`, …; 1 if left out. All together at most 100 000.
@@ -42,6 +45,9 @@ pub(crate) struct FeatureFile {
     pub(crate) along: Option<Field<String>>,
     /// The facies of what it bounds.
     pub(crate) facies: Field<String>,
+    /// Rock properties of its own volumes, in the place of those of its `facies`; parts with a facies of their own, such as belts and drapes, keep that one's.
+    #[schemars(with = "Option<Properties>")]
+    pub(crate) properties: Option<Field<Any>>,
     /// A surface that it conforms to, with all that lies in it: { to = "lower-3", depth = 2 }.
     #[schemars(with = "Option<ConformFile>")]
     pub(crate) conform: Option<Field<Any>>,

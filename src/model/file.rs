@@ -3,14 +3,18 @@
 //! These types are both the reader (serde) and the published schema (schemars), so neither can drift from the other; the
 //! doc comments are what an editor shows. Values of several shapes are [`Any`] here and are told apart in `check`.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value};
 
+use super::colours;
 use super::kinds;
 use super::read::{Any, Field};
+use super::tables::object;
+use super::values::property::{Properties, any_property};
 use super::values::surface::HorizonSurface;
 
 /// A surface-based geological model. Lengths in metres, x east, y north, z up; azimuths clockwise from north.
@@ -32,7 +36,7 @@ pub(crate) struct ModelFile {
     #[schemars(with = "DomainFile")]
     pub(crate) domain: Field<Any>,
     /// The facies by name: what the volumes are made of.
-    #[schemars(with = "BTreeMap<String, FaciesFile>")]
+    #[schemars(with = "BTreeMap<String, FaciesTable>")]
     pub(crate) facies: Field<Any>,
     /// The features, from oldest to youngest.
     #[schemars(schema_with = "kinds::schema")]
@@ -64,24 +68,36 @@ pub(crate) struct DomainFile {
     pub(crate) facies: Field<String>,
 }
 
-/// A facies. Any further key with a number (or [x, y, z]) is a rock property of its own.
+/// A facies. Any further key with a number, [x, y, z] or a distribution is a rock property of its own.
 #[derive(Deserialize, JsonSchema)]
-#[schemars(rename = "Facies", extend("additionalProperties" = property()))]
 pub(crate) struct FaciesFile {
-    /// Colour in pictures and files, "#rrggbb".
-    #[schemars(regex(pattern = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$"))]
+    /// What it is called where people read, in any alphabet; the table's name if left out.
+    pub(crate) name: Option<Field<String>>,
+    /// Colour in pictures and files, "#rrggbb" or a colour's name; by the rock that the facies' name says if left out.
+    #[schemars(schema_with = "color")]
+    #[serde(default)]
     pub(crate) color: Option<Field<String>>,
     /// A sentence about the facies.
     pub(crate) description: Option<Field<String>>,
-    /// Whether the facies counts as net (reservoir) rock.
-    pub(crate) net: Option<Field<bool>>,
-    /// Porosity, a fraction from 0 to 1.
-    #[schemars(range(min = 0, max = 1))]
-    pub(crate) porosity: Option<Field<f64>>,
-    /// Permeability in millidarcy: one number, or [x, y, z].
-    #[schemars(schema_with = "permeability")]
-    #[serde(default)]
-    pub(crate) permeability: Option<Field<Any>>,
+}
+
+/// Stands for the table of a facies: its own keys, and its rock properties beside them.
+struct FaciesTable;
+
+impl JsonSchema for FaciesTable {
+    fn schema_name() -> Cow<'static, str> {
+        "Facies".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut table = FaciesFile::json_schema(generator);
+        let own = table.get("properties").cloned();
+        let mut keys = own.map_or_else(Map::new, object);
+        keys.extend(Properties::keys(generator));
+        table.insert("properties".to_owned(), Value::Object(keys));
+        table.insert("additionalProperties".to_owned(), any_property(generator));
+        table
+    }
 }
 
 fn origin(_: &mut SchemaGenerator) -> Schema {
@@ -90,14 +106,11 @@ fn origin(_: &mut SchemaGenerator) -> Schema {
     })
 }
 
-fn permeability(_: &mut SchemaGenerator) -> Schema {
+fn color(_: &mut SchemaGenerator) -> Schema {
+    let hexadecimal = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
     json_schema!({
-        "type": ["number", "array"], "minimum": 0,
-        "items": { "type": "number", "minimum": 0 }, "minItems": 3, "maxItems": 3,
+        "type": "string",
+        "anyOf": [{ "pattern": hexadecimal }, { "enum": colours::names() }],
+        "examples": ["#e6c25c", "gold", "grey"],
     })
-}
-
-/// Any further rock property.
-fn property() -> Value {
-    json!({ "type": ["number", "array"], "items": { "type": "number" }, "minItems": 3, "maxItems": 3 })
 }

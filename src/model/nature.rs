@@ -28,6 +28,18 @@ impl Nature {
     pub fn is_many(&self) -> bool {
         self.volumes != Volumes::One
     }
+
+    /// The keys that features have, and those of the kind have not.
+    pub(crate) fn lacking(&self) -> Vec<&'static str> {
+        let mut keys = Vec::new();
+        if matches!(self.taking, Taking::ByKind { .. }) {
+            keys.extend(["removes", "preserve"]);
+        }
+        if matches!(self.within, Within::Domain { .. }) {
+            keys.push("parent");
+        }
+        keys
+    }
 }
 
 /// How many of a kind a feature makes.

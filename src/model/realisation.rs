@@ -16,6 +16,7 @@ use listing::Listing;
 use listing::volumes::Volumes;
 
 use super::draws::{self, Rejected};
+use super::properties::VolumeProperties;
 use super::rules::{Rules, VolumeRules};
 use super::selection::Selection;
 use super::spec::Model;
@@ -56,6 +57,8 @@ pub struct Rejection {
 pub struct Realisation {
     /// The volumes' parts in the rules; the first is the background.
     pub volumes: Vec<VolumeRules>,
+    /// The volumes' rock properties.
+    pub properties: Vec<VolumeProperties>,
     /// The rules, resolved.
     pub rules: Rules,
     /// The bodies, in order of evaluation: instance `i` is volume `i + 1`.
@@ -141,8 +144,9 @@ impl Realisation {
         let Volumes {
             rules: volumes,
             mut instances,
+            properties,
             decisions: told,
-        } = Volumes::of(model, selection, &list, made)?;
+        } = Volumes::of(model, selection, &list, made, &extent)?;
         let Listing {
             drawn,
             mut decisions,
@@ -171,6 +175,7 @@ impl Realisation {
         Ok(Self {
             rules: Rules::new(&volumes),
             volumes,
+            properties,
             instances,
             rejections,
             extent,

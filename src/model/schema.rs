@@ -5,6 +5,9 @@
 //! a validator can only say so of the whole table, and editors underline a whole feature for one wrong key. For the same
 //! reason an unknown key is refused at its own place, and what is missing is said of tables without unknown keys: where a
 //! key is misspelt, it is the misspelling that is wrong.
+//!
+//! What a key is if it is left out stands in its description, for people. Editors offer it from there: so there is one place for
+//! it, and a test builds models with and without.
 
 use serde_json::{Map, Value, json};
 
@@ -14,6 +17,7 @@ use super::file::ModelFile;
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(ModelFile).to_value();
     forbid_null(&mut schema);
+    state_defaults(&mut schema);
     point_at_keys(&mut schema);
     schema
 }
@@ -47,6 +51,44 @@ fn point_at_keys(value: &mut Value) {
     }
 }
 
+/// States the default of each key whose description says one.
+fn state_defaults(value: &mut Value) {
+    match value {
+        Value::Object(object) => {
+            if let Some(Value::Object(keys)) = object.get_mut("properties") {
+                for key in keys.values_mut().filter_map(Value::as_object_mut) {
+                    let words = key.get("description").and_then(Value::as_str);
+                    if let Some(default) = words.and_then(default_in) {
+                        key.insert("default".to_owned(), default);
+                    }
+                }
+            }
+            object.values_mut().for_each(state_defaults);
+        }
+        Value::Array(values) => values.iter_mut().for_each(state_defaults),
+        _ => {}
+    }
+}
+
+/// The value that a description says a key has if it is left out: `…; 15 if left out`, or `"older" (the default)`. Of a key that
+/// kinds describe one by one, all must say the same.
+fn default_in(words: &str) -> Option<Value> {
+    let mut lines = words.lines().map(|line| {
+        if let Some((before, _)) = line.split_once("\" (the default)") {
+            let word = before.rsplit('"').next()?;
+            return Some(json!(word));
+        }
+        let (before, _) = line.split_once(" if left out")?;
+        let clause = before.rsplit("; ").next()?;
+        let value = clause.split(" (").next()?;
+        serde_json::from_str(value).ok()
+    });
+    let first = lines.next()??;
+    lines
+        .all(|other| other.as_ref() == Some(&first))
+        .then_some(first)
+}
+
 /// An absent key is left out, never null: drops the null that schemars allows for every optional key.
 fn forbid_null(value: &mut Value) {
     match value {
@@ -73,5 +115,40 @@ fn forbid_null(value: &mut Value) {
         }
         Value::Array(values) => values.iter_mut().for_each(forbid_null),
         _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::default_in;
+    use serde_json::json;
+
+    #[test]
+    fn defaults_are_what_the_words_say_and_nothing_else() {
+        for (words, default) in [
+            ("Degrees; 15 if left out.", Some(json!(15))),
+            (
+                "True or false; true if left out. False leaves it out.",
+                Some(json!(true)),
+            ),
+            (
+                "Semi-extents; [3000, 6000] if left out.",
+                Some(json!([3000, 6000])),
+            ),
+            ("Bars; 0 (they only grow) if left out.", Some(json!(0))),
+            (
+                "How: \"straight\" (the default) or \"bent\".",
+                Some(json!("straight")),
+            ),
+            ("Width; right across the domain if left out.", None),
+            ("Degree, 1 (straight) to 3 (the default).", None),
+            ("if left out, 0 between level bounds", None),
+            ("Length in metres.", None),
+            ("a: m; 1 if left out.\nb: m; 1 if left out.", Some(json!(1))),
+            ("a: m; 1 if left out.\nb: m; 2 if left out.", None),
+            ("a: m; 1 if left out.\nb: m.", None),
+        ] {
+            assert_eq!(default_in(words), default, "{words}");
+        }
     }
 }

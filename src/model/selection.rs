@@ -25,6 +25,14 @@ pub enum SelectionError {
         /// What to do.
         remedy: String,
     },
+    /// The name lies in several places.
+    #[error("`{name}` lies in several places: {}; name one of them", suggest::list(&candidates.iter().map(String::as_str).collect::<Vec<_>>()))]
+    Ambiguous {
+        /// The name given.
+        name: String,
+        /// Its places, in order of the model.
+        candidates: Vec<String>,
+    },
     /// The first belt of a clinothem cannot be left out alone.
     #[error(
         "`{name}` cannot be left out alone: the other belts of `{clinothem}` are divided from it; leave out `{clinothem}`, \
@@ -51,33 +59,111 @@ impl Selection {
         !self.without.iter().any(|without| without == name)
     }
 
-    /// Every name to leave out must be a feature, or look like one of its volumes. How many clinothems a set has is
-    /// known only when it is drawn.
-    pub fn check(&self, model: &Model) -> Result<(), SelectionError> {
-        for name in &self.without {
-            let known = model
-                .features
-                .iter()
-                .find_map(|feature| names(model, feature, name));
-            match known {
-                None => {
-                    return Err(SelectionError::Unknown {
-                        name: name.clone(),
-                        remedy: remedy(model, name),
-                    });
-                }
-                Some(Named::FirstBelt(clinothem)) => {
-                    return Err(SelectionError::FirstBelt {
-                        name: name.clone(),
-                        clinothem: clinothem.to_owned(),
-                    });
-                }
-                Some(Named::Volume) => {}
-            }
-        }
-        Ok(())
+    /// The same with every name as the model has it: that of a feature, or the whole path of a volume. How many clinothems a set
+    /// has is known only when it is drawn.
+    ///
+    /// # Errors
+    /// Nothing has a name, several things have it, or it cannot be left out alone.
+    pub fn found_in(&self, model: &Model) -> Result<Self, SelectionError> {
+        let found = |name: &String| found(model, name);
+        Ok(Self {
+            without: self.without.iter().map(found).collect::<Result<_, _>>()?,
+            max_level: self.max_level,
+        })
     }
 }
+
+/// The whole name of what is to be left out.
+fn found(model: &Model, name: &str) -> Result<String, SelectionError> {
+    let mut features = model.features.iter();
+    match features.find_map(|feature| names(model, feature, name)) {
+        Some(Named::Volume) => return Ok(name.to_owned()),
+        Some(Named::FirstBelt(clinothem)) => {
+            return Err(SelectionError::FirstBelt {
+                name: name.to_owned(),
+                clinothem: clinothem.to_owned(),
+            });
+        }
+        None => {}
+    }
+    let mut candidates: Vec<String> = model
+        .features
+        .iter()
+        .flat_map(|feature| completed(model, feature, name))
+        .collect();
+    if candidates.len() > 1 {
+        return Err(SelectionError::Ambiguous {
+            name: name.to_owned(),
+            candidates,
+        });
+    }
+    match candidates.pop() {
+        // It may still be what cannot be left out alone.
+        Some(whole) => found(model, &whole),
+        None => Err(SelectionError::Unknown {
+            name: name.to_owned(),
+            remedy: remedy(model, name),
+        }),
+    }
+}
+
+/// The whole names of a feature's volumes that end in this one; so many at most as anybody reads.
+fn completed(model: &Model, feature: &Feature, name: &str) -> Vec<String> {
+    let Some(parent) = feature.parent.map(|parent| &model.features[parent]) else {
+        return Vec::new();
+    };
+    let starts = std::iter::once(0).chain(name.match_indices('/').map(|(at, _)| at + 1));
+    for at in starts {
+        let (path, own) = (name[..at].trim_end_matches('/'), &name[at..]);
+        if !is_own(feature, own) {
+            continue;
+        }
+        let paths = if path.is_empty() {
+            volumes(model, parent)
+        } else {
+            completed(model, parent, path)
+        };
+        return paths.iter().map(|path| format!("{path}/{own}")).collect();
+    }
+    Vec::new()
+}
+
+/// The whole names of a feature's instances; so many at most as anybody reads.
+fn volumes(model: &Model, feature: &Feature) -> Vec<String> {
+    let paths = match feature.parent.map(|parent| &model.features[parent]) {
+        None => vec![String::new()],
+        Some(parent) => volumes(model, parent),
+    };
+    let own = (1..=feature.count).map(|number| match feature.count {
+        1 => feature.id.clone(),
+        _ => format!("{}-{number}", feature.id),
+    });
+    let own: Vec<String> = own.take(MOST_CANDIDATES).collect();
+    let all = paths.iter().flat_map(|path| {
+        own.iter().map(move |own| match path.as_str() {
+            "" => own.clone(),
+            path => format!("{path}/{own}"),
+        })
+    });
+    all.take(MOST_CANDIDATES).collect()
+}
+
+/// Whether this is what a volume of the feature is called in its parent.
+fn is_own(feature: &Feature, name: &str) -> bool {
+    let Some(rest) = name.strip_prefix(feature.id.as_str()) else {
+        return false;
+    };
+    let Some(rest) = rest.strip_prefix('-') else {
+        return rest.is_empty();
+    };
+    if feature.kind.nature().is_many() {
+        return feature.kind.volume_name(rest).is_some();
+    }
+    number(rest).is_some_and(|number| feature.count > 1 && (1..=feature.count).contains(&number))
+}
+
+/// Names that are listed where one is not enough to tell what is meant.
+const MOST_CANDIDATES: usize = 25;
 
 /// What a name is of a feature.
 enum Named<'a> {

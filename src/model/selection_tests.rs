@@ -63,14 +63,20 @@ spacing = 20
 first = 10
 "#;
 
-fn refused(name: &str) -> Option<String> {
+fn found(name: &str) -> Result<String, SelectionError> {
     let source = Source::from_text("m.toml", &(MODEL.to_owned() + BARE), Format::Toml);
     let model = Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));
     let selection = Selection {
         without: vec![name.to_owned()],
         max_level: None,
     };
-    selection.check(&model).err().map(|error| error.to_string())
+    selection
+        .found_in(&model)
+        .map(|found| found.without[0].clone())
+}
+
+fn refused(name: &str) -> Option<String> {
+    found(name).err().map(|error| error.to_string())
 }
 
 #[test]
@@ -108,7 +114,6 @@ fn what_cannot_be_left_out_is_told_with_what_can() {
         ("trunk-4/nodule", "as `trunk-1"),
         ("trnk", "as `trunk-1`"),
         ("shore-1", "did you mean `shore`?"),
-        ("lower-1", "as `shore/lower-1`"),
         ("shore/lower-5", "as `shore/lower-1`"),
         ("shore/lower-1/farther", "as `shore/lower-1`"),
         ("shore/lower-1/near/x", "as `shore/lower-1`"),
@@ -130,4 +135,72 @@ fn what_cannot_be_left_out_is_told_with_what_can() {
             "{reason}"
         );
     }
+    let reason = refused("lower-3/near").unwrap();
+    assert!(reason.contains("`shore/lower-3/near` cannot be left out alone"));
+}
+
+#[test]
+fn what_lies_in_one_place_is_found_there() {
+    for (name, whole) in [
+        ("lower-1", "shore/lower-1"),
+        ("lower-0/far", "shore/lower-0/far"),
+        ("shore/lower-1", "shore/lower-1"),
+        ("nodule", "nodule"),
+        ("crystal", "crystal"),
+        ("crystal-2", "lens/crystal-2"),
+        ("inclusion-3", "lens/crystal/inclusion-3"),
+    ] {
+        // Another tree: a lens with crystals, the first of which has inclusions.
+        let lens = r#"
+[[feature]]
+id = "lens"
+kind = "ellipsoid"
+facies = "mud"
+semi_axes = [9, 9, 3]
+[[feature]]
+id = "crystal"
+kind = "ellipsoid"
+parent = "lens"
+count = COUNT
+facies = "mud"
+semi_axes = [2, 2, 1]
+[[feature]]
+id = "inclusion"
+kind = "ellipsoid"
+parent = "crystal"
+count = 3
+facies = "mud"
+semi_axes = [0.1, 0.1, 0.1]
+"#;
+        let is_deep = name.starts_with("inclusion");
+        let text = MODEL.to_owned() + &lens.replace("COUNT", if is_deep { "1" } else { "2" });
+        let source = Source::from_text("m.toml", &text, Format::Toml);
+        let model = Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));
+        let selection = Selection {
+            without: vec![name.to_owned()],
+            max_level: None,
+        };
+        assert_eq!(selection.found_in(&model).unwrap().without, [whole]);
+    }
+}
+
+#[test]
+fn what_lies_in_several_places_is_refused_with_all_of_them() {
+    let text = MODEL.replace("parent = \"trunk\"", "parent = \"trunk\"\ncount = 2");
+    let source = Source::from_text("m.toml", &text, Format::Toml);
+    let model = Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));
+    let selection = Selection {
+        without: vec!["nodule-2".to_owned()],
+        max_level: None,
+    };
+    let error = selection.found_in(&model).unwrap_err();
+    let places = ["trunk-1/nodule-2", "trunk-2/nodule-2", "trunk-3/nodule-2"];
+    assert_eq!(
+        error,
+        SelectionError::Ambiguous {
+            name: "nodule-2".to_owned(),
+            candidates: places.map(str::to_owned).to_vec(),
+        }
+    );
+    assert!(error.to_string().contains(&places.join(", ")), "{error}");
 }

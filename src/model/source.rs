@@ -92,6 +92,21 @@ impl Source {
         Ok(Self::from_text(name, text, format))
     }
 
+    /// Reads a model from a stream, such as standard input: JSON if it begins with `{`, else TOML; `name` stands in messages as
+    /// its file.
+    pub fn read_stream(name: &str, stream: impl std::io::Read) -> Result<Self, ReadError> {
+        let bytes = all_of(Path::new(name), stream)?;
+        let text = text_of(name, bytes)?;
+        let first = text.trim_start_matches('\u{feff}').trim_start();
+        // No TOML begins with a brace.
+        let format = if first.starts_with('{') {
+            Format::Json
+        } else {
+            Format::Toml
+        };
+        Ok(Self::from_text(name, text, format))
+    }
+
     /// A model that is in memory already; `name` stands in messages as its file.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>, format: Format) -> Self {
         let mut text = text.into();
@@ -140,25 +155,34 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
             path: path.to_owned(),
         });
     }
-    let too_large = |size| ReadError::TooLarge {
-        path: path.to_owned(),
-        size,
-    };
     if metadata.len() > LARGEST_FILE {
-        return Err(too_large(metadata.len()));
+        return Err(too_large(path, metadata.len()));
     }
-    // A pipe has no length; so the limit holds for what is read too.
+    all_of(path, File::open(path).map_err(io)?)
+}
+
+/// All that a stream holds; a pipe has no length, so the limit holds for what is read too.
+fn all_of(path: &Path, stream: impl std::io::Read) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    File::open(path)
-        .map_err(io)?
+    stream
         .take(LARGEST_FILE + 1)
         .read_to_end(&mut bytes)
-        .map_err(io)?;
+        .map_err(|source| ReadError::Io {
+            path: path.to_owned(),
+            source,
+        })?;
     let size = bytes.len() as u64;
     if size > LARGEST_FILE {
-        return Err(too_large(size));
+        return Err(too_large(path, size));
     }
     Ok(bytes)
+}
+
+fn too_large(path: &Path, size: u64) -> ReadError {
+    ReadError::TooLarge {
+        path: path.to_owned(),
+        size,
+    }
 }
 
 fn text_of(name: &str, bytes: Vec<u8>) -> Result<String, ReadError> {

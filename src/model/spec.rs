@@ -9,6 +9,7 @@ use super::kinds::FeatureKind;
 use super::place::{Note, Place};
 use super::references::{Host, Reference};
 use super::values::conform::ConformSpec;
+use super::values::property::PropertySpec;
 use super::values::selector::Selector;
 
 /// A checked model.
@@ -37,6 +38,8 @@ pub struct Model {
 pub struct Feature {
     /// Its id, unique in the model.
     pub id: String,
+    /// What it is called where people read; its id if absent.
+    pub title: Option<String>,
     /// What it is.
     pub kind: FeatureKind,
     /// Whether it takes part.
@@ -51,6 +54,8 @@ pub struct Feature {
     pub along: Option<usize>,
     /// Index of the facies of what it bounds.
     pub facies: usize,
+    /// Rock properties of its own volumes, in the place of those of its facies.
+    pub properties: Vec<(String, PropertySpec)>,
     /// What it may remove.
     pub removes: Selector,
     /// What may remove it.

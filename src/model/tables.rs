@@ -62,6 +62,15 @@ pub(crate) fn object(value: Value) -> Map<String, Value> {
 /// The keys' schemas stand in the table itself, where editors look for what to complete; what is to be there, and what not,
 /// depends on the kind. A key that two kinds mean differently has its schema with the kind.
 pub(crate) fn by_kind(common: &Schema, kinds: &[(&str, Schema)]) -> Schema {
+    by_kind_but(common, kinds, &|_| Vec::new())
+}
+
+/// The same of kinds that have not all of the common keys: those are said for each.
+pub(crate) fn by_kind_but(
+    common: &Schema,
+    kinds: &[(&str, Schema)],
+    lacking: &dyn Fn(&str) -> Vec<&'static str>,
+) -> Schema {
     let mut properties = keys(common);
     for (_, part) in kinds {
         for key in keys(part).keys() {
@@ -78,7 +87,10 @@ pub(crate) fn by_kind(common: &Schema, kinds: &[(&str, Schema)]) -> Schema {
     properties.insert("kind".to_owned(), kind);
     let mut table = Map::new();
     for (kind, part) in kinds.iter().rev() {
-        let allowed = keys(common).into_iter().chain(keys(part));
+        let lacking = lacking(kind);
+        let common_keys = keys(common).into_iter();
+        let common_keys = common_keys.filter(|(key, _)| !lacking.contains(&key.as_str()));
+        let allowed = common_keys.chain(keys(part));
         let allowed = allowed.map(|(key, schema)| {
             let has_it_here = keys(part).contains_key(&key) && !shared(&key, kinds).1;
             (

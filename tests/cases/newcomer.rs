@@ -77,20 +77,13 @@ fn children_that_are_placed_in_their_parent_are_as_large_as_channels_and_nothing
 
 #[test]
 fn a_permeability_that_is_no_number_is_a_defect_where_it_stands() {
-    for (name, path, marked, remedy) in [
-        (
-            "perm",
-            "facies.sand.permeability",
-            "{ lognormal = [500, 200] }",
-            "rock properties are not drawn; write one number in millidarcy, or [x, y, z]",
-        ),
-        (
+    {
+        let (name, path, marked, remedy) = (
             "perm2",
             "facies.mud.permeability",
             "\"500 mD\"",
             "write the number without quotes or unit: 500",
-        ),
-    ] {
+        );
         let found = defects(name);
         assert_eq!(found.len(), 1, "{name}: {found:?}");
         let line = text("newcomer", name)
@@ -106,6 +99,20 @@ fn a_permeability_that_is_no_number_is_a_defect_where_it_stands() {
             [format!("/{}", path.replace('.', "/"))]
         );
     }
+}
+
+#[test]
+fn a_permeability_that_is_a_distribution_is_drawn() {
+    let report = Report::case("newcomer", "perm");
+    let drawn = report.volume("background")["properties"]["permeability"].clone();
+    let [x, y, z] = [0, 1, 2].map(|axis| drawn[axis].as_f64().unwrap());
+    assert!(x == y && y == z && x > 0.0, "{drawn}");
+    let again = Report::case("newcomer", "perm");
+    assert_eq!(
+        again.volume("background")["properties"]["permeability"],
+        drawn
+    );
+    assert_eq!(underlined(&text("newcomer", "perm")), [""; 0]);
 }
 
 #[test]

@@ -12,5 +12,7 @@ mod answers;
 mod draws;
 mod failures;
 mod interrupted;
+mod names;
 mod notes;
+mod rock;
 mod sandbox;

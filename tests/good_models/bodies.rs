@@ -1,7 +1,7 @@
 //! Channels and ellipsoids: every key arrives, and what is left out has its default.
 
 use clinothem::model::{
-    EllipsoidSpec, Expression, FeatureKind, Model, Pick, Profile, Property, Quantity, Rgb,
+    EllipsoidSpec, Expression, FeatureKind, Model, Pick, Profile, PropertySpec, Quantity, Rgb,
     SectionOrigin, Selector, TrajectorySpec,
 };
 use clinothem::nurbs::interpolate::Parametrization;
@@ -82,14 +82,14 @@ fn every_key_arrives_where_it_belongs() {
             b: 0xff
         }
     );
-    assert_eq!(mud.net, Some(false));
     assert_eq!(
         mud.properties,
         [
-            ("porosity".to_owned(), Property::Scalar(0.08)),
-            ("permeability".to_owned(), Property::Vector([0.1; 3])),
-            ("youngs_modulus".to_owned(), Property::Scalar(2.1e10)),
-            ("stress".to_owned(), Property::Vector([1.0, 2.0, 3.0])),
+            ("net".to_owned(), PropertySpec::from(0.0)),
+            ("porosity".to_owned(), PropertySpec::from(0.08)),
+            ("permeability".to_owned(), PropertySpec::from(0.1)),
+            ("youngs_modulus".to_owned(), PropertySpec::from(2.1e10)),
+            ("stress".to_owned(), PropertySpec::from([1.0, 2.0, 3.0])),
         ]
     );
     let trunk = &model.features[0];
@@ -241,7 +241,7 @@ fn overrides_replace_values_and_later_ones_win() {
     );
     assert_eq!(
         model.facies[1].properties,
-        [("porosity".to_owned(), Property::Scalar(0.3))]
+        [("porosity".to_owned(), PropertySpec::from(0.3))]
     );
     assert_eq!(model.facies[2].name, "coal");
 }

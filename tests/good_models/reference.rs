@@ -36,6 +36,7 @@ fn the_examples_of_the_reference_are_good() {
             let key = line.split(" =").next().unwrap();
             let text = match key {
                 "removes" | "removed_by" => whole.replace("count = 5", line),
+                "properties" => whole.replace("count = 5", line),
                 "width" => whole.replace("width = 80", line),
                 "trajectory" if !whole.contains(line) => whole.replace(
                     "trajectory = { kind = \"line\", from = [0, 300], to = [1000, 600] }",
@@ -47,7 +48,11 @@ fn the_examples_of_the_reference_are_good() {
             lines += 1;
         }
     }
-    assert!(lines >= 14, "{lines}");
+    assert!(lines >= 15, "{lines}");
+    for block in blocks.iter().filter(|block| block.starts_with("[facies")) {
+        let model = check(&format!("{whole}\n{block}"), &[]);
+        model.unwrap_or_else(|defects| panic!("{defects}"));
+    }
 }
 
 #[test]

@@ -32,6 +32,7 @@ use occt_bridge::{
 fn part(name: &str, color: [u8; 3], shapes: Vec<usize>) -> Node {
     Node {
         name: name.to_owned(),
+        label: None,
         color: Some(color),
         layer: Some(format!("layer of {name}")),
         description: Some("porosity=0.25".to_owned()),
@@ -42,6 +43,7 @@ fn part(name: &str, color: [u8; 3], shapes: Vec<usize>) -> Node {
 fn group(name: &str, nodes: Vec<Node>) -> Node {
     Node {
         name: name.to_owned(),
+        label: None,
         color: None,
         layer: None,
         description: None,

@@ -8,7 +8,14 @@ use super::{Written, document, part};
 
 #[test]
 fn names_with_quotes_backslashes_and_other_letters_come_back() {
-    let names = ["O'Brien's", "a\\b", "Sandkörper", "Ω 1", "𝔘 2"];
+    let names = [
+        "O'Brien's",
+        "a\\b",
+        "Sandkörper",
+        "Ω 1",
+        "𝔘 2",
+        "Brent Næss 上部",
+    ];
     let shapes: Vec<_> = (0..names.len())
         .map(|i| box_solid([3.0 * i as f64, 0.0, 0.0], [3.0 * i as f64 + 1.0, 1.0, 1.0]).unwrap())
         .collect();
@@ -19,10 +26,13 @@ fn names_with_quotes_backslashes_and_other_letters_come_back() {
     assert!(text.is_ascii());
     assert!(text.contains("'O''Brien''s'") && text.contains("'a\\\\b'"));
     assert!(text.contains("'Sandk\\X2\\00F6\\X0\\rper'"));
-    assert!(text.contains("'\\X2\\D835DD18\\X0\\ 2'"));
+    assert!(text.contains("'\\X4\\0001D518\\X0\\ 2'"));
+    assert!(text.contains("'Brent N\\X2\\00E6\\X0\\ss \\X2\\4E0A90E8\\X0\\'"));
     let read: Vec<_> = written.read().into_iter().map(|p| p.name).collect();
     assert_eq!(read[0], names[0]);
+    // The kernel's reader keeps a double backslash, and takes \\X4\\ for text.
     assert_eq!(read[2..4], names[2..4]);
+    assert_eq!(read[5], names[5]);
 }
 
 proptest! {

@@ -8,7 +8,7 @@ use super::strata::{clinoforms, horizon, isochore, surface};
 use super::tables::{Block, FACIES, model as whole, set, table};
 
 /// A block of a hundred metres to a few kilometres.
-fn block(draws: &mut Draws) -> Block {
+pub(super) fn block(draws: &mut Draws) -> Block {
     let east = draws.magnitude(200.0, 5000.0);
     let north = rounded(east * draws.magnitude(0.5, 2.0), 5);
     let height = rounded(east * draws.magnitude(0.01, 0.15), 5);

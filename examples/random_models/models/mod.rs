@@ -5,6 +5,7 @@ mod bodies;
 mod coincident;
 mod draws;
 mod generic;
+mod sedimentary;
 mod strata;
 mod tables;
 mod ways;
@@ -12,7 +13,7 @@ mod wells;
 
 use std::str::FromStr;
 
-use toml::Table;
+use toml::{Table, Value};
 
 use draws::Draws;
 pub use tables::number;
@@ -27,6 +28,10 @@ pub enum Kind {
     Coincident,
     /// Horizons interpolated from wells: nearly parallel, and crossing.
     WellTops,
+    /// What lies in channels and along them, scours, lobes, clinoforms and nets of one's own.
+    Sedimentary,
+    /// The same in round numbers: channels with children that cross, meet and follow each other.
+    RoundSedimentary,
 }
 
 impl FromStr for Kind {
@@ -37,8 +42,10 @@ impl FromStr for Kind {
             "generic" => Ok(Self::Generic),
             "coincident" => Ok(Self::Coincident),
             "well-tops" => Ok(Self::WellTops),
+            "sedimentary" => Ok(Self::Sedimentary),
+            "round-sedimentary" => Ok(Self::RoundSedimentary),
             _ => Err(format!(
-                "there is no kind `{word}`; there are generic, coincident and well-tops"
+                "there is no kind `{word}`; there are generic, coincident, well-tops, sedimentary and round-sedimentary"
             )),
         }
     }
@@ -50,14 +57,42 @@ pub fn model(kind: Kind, seed: u64, plain: bool) -> Table {
         Kind::Generic => 1,
         Kind::Coincident => 2,
         Kind::WellTops => 3,
+        Kind::Sedimentary => 4,
+        Kind::RoundSedimentary => 5,
     };
     let mut draws = Draws::new(seed, salt, plain);
     let mut model = match kind {
         Kind::Generic => generic::model(&mut draws),
         Kind::Coincident => coincident::model(&mut draws),
         Kind::WellTops => wells::model(&mut draws),
+        Kind::Sedimentary => sedimentary::model(&mut draws),
+        Kind::RoundSedimentary => sedimentary::round(&mut draws),
     };
     let name = format!("{kind:?} {seed}");
     model.insert("name".to_owned(), name.into());
+    model
+}
+
+/// The model without features of kinds that a program does not have, and without what names these.
+#[allow(dead_code, reason = "a test of units shares these models")]
+pub fn limited(mut model: Table, kinds: &[&str]) -> Table {
+    let Some(features) = model.get_mut("feature").and_then(Value::as_array_mut) else {
+        return model;
+    };
+    let mut left_out: Vec<Value> = Vec::new();
+    features.retain(|feature| {
+        let word = |key: &str| feature.get(key).and_then(Value::as_str);
+        let is_known = word("kind").is_some_and(|kind| kinds.contains(&kind));
+        let hosts = ["parent", "along"].map(|key| feature.get(key));
+        let is_left = hosts
+            .into_iter()
+            .flatten()
+            .any(|host| left_out.contains(host));
+        if is_known && !is_left {
+            return true;
+        }
+        left_out.extend(feature.get("id").cloned());
+        false
+    });
     model
 }

@@ -72,9 +72,9 @@ impl Way {
 }
 
 /// A plain model, changed; none if the program's own draws would not change with it (how belts interfinger along strike,
-/// where a mirror exchanges the ends).
+/// where a mirror exchanges the ends), or it has kinds that are not known here.
 pub fn changed(model: &Table, way: Way) -> Option<Table> {
-    if way == Way::Mirrored && interfingers(model) {
+    if way == Way::Mirrored && interfingers(model) || !is_understood(model) {
         return None;
     }
     let mut model = model.clone();
@@ -92,6 +92,17 @@ pub fn changed(model: &Table, way: Way) -> Option<Table> {
         }
     }
     Some(model)
+}
+
+/// Whether all features are of kinds that are known here.
+fn is_understood(model: &Table) -> bool {
+    const KNOWN: [&str; 4] = ["channel", "ellipsoid", "horizon", "clinoforms"];
+    let features = model.get("feature").and_then(Value::as_array);
+    let mut kinds = features.into_iter().flatten().map(|one| one.get("kind"));
+    kinds.all(|kind| {
+        kind.and_then(Value::as_str)
+            .is_some_and(|kind| KNOWN.contains(&kind))
+    })
 }
 
 fn interfingers(model: &Table) -> bool {

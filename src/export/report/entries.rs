@@ -22,7 +22,9 @@ pub struct Report {
     pub volumes: Vec<VolumeEntry>,
     /// Totals of each facies, in the order of the model file.
     pub facies: Vec<FaciesEntry>,
-    /// Net volume over gross volume; null if a facies does not say whether it is net.
+    /// Totals of rock over the whole domain.
+    pub totals: TotalsEntry,
+    /// Net volume over gross volume; null if a volume does not say whether it is net.
     pub net_to_gross: Option<f64>,
     /// Draws that made no surface and were made again.
     pub rejected_draws: Vec<RejectedEntry>,
@@ -82,6 +84,8 @@ pub struct DomainEntry {
 pub struct VolumeEntry {
     /// Its name, the same in every file.
     pub name: String,
+    /// What it is called where people read; null if that is its name.
+    pub display_name: Option<String>,
     /// The feature that it is an instance of.
     pub feature: String,
     /// The feature's kind.
@@ -97,7 +101,7 @@ pub struct VolumeEntry {
     /// The volume that it goes along, if it is a companion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub along: Option<String>,
-    /// Rock properties of its facies; permeability in mD.
+    /// Its rock properties: a number; three along x, y and z; or a symmetric tensor by rows. `net` is a fraction, permeability in mD.
     pub properties: BTreeMap<String, serde_json::Value>,
     /// What was drawn for it, by parameter.
     pub drawn: BTreeMap<String, f64>,
@@ -137,16 +141,49 @@ pub struct NeighbourEntry {
 pub struct FaciesEntry {
     /// Its name.
     pub name: String,
+    /// What it is called where people read; null if that is its name.
+    pub display_name: Option<String>,
     /// Its colour.
     pub color: String,
-    /// Whether it is net.
-    pub net: Option<bool>,
+    /// Which fraction of it is net, over its volume; null if not all of it says so.
+    pub net: Option<f64>,
     /// Volume (m³).
     pub volume_m3: f64,
     /// Share of the domain.
     pub fraction: f64,
+    /// Totals of its rock.
+    pub totals: TotalsEntry,
     /// Groups of volumes of this facies that touch each other, largest first.
     pub connected: Vec<GroupEntry>,
+}
+
+/// Totals of rock; those that need what some volume does not say are null.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TotalsEntry {
+    /// Net rock (m³): the sum of net V.
+    pub net_volume_m3: Option<f64>,
+    /// Pores (m³): the sum of φ V.
+    pub pore_volume_m3: Option<f64>,
+    /// Pores of the net rock (m³): the sum of φ net V.
+    pub net_pore_volume_m3: Option<f64>,
+    /// What is not water in these (m³, in the reservoir): the sum of φ net (1 − sw) V.
+    pub hydrocarbon_volume_m3: Option<f64>,
+    /// Means over the volume of each rock property that all of it has, as volumes have them.
+    pub means: BTreeMap<String, serde_json::Value>,
+    /// Of each property that only a part of it has, the facies that lack it.
+    pub unknown: BTreeMap<String, Vec<String>>,
+    /// Between what the permeability as a whole lies, if that was asked for and is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub permeability_bounds: Option<BoundsEntry>,
+}
+
+/// Bounds of the permeability of several volumes as a whole, however they are arranged, along x, y and z.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct BoundsEntry {
+    /// As if all lay beside each other (mD).
+    pub arithmetic_md: [f64; 3],
+    /// As if all lay behind each other (mD); null if a tensor has no inverse.
+    pub harmonic_md: Option<[f64; 3]>,
 }
 
 /// Volumes of one facies that are connected.

@@ -3,17 +3,17 @@
 mod entries;
 mod groups;
 mod parts;
-
-use std::collections::BTreeMap;
+mod totals;
 
 use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
-use crate::model::{Facies, Property, remarks};
+use crate::model::{Facies, Property, labels, remarks};
 
 pub use entries::*;
 use groups::groups;
 pub use parts::{Parts, solid_names};
+use totals::{Share, totals};
 
 /// Name and version of the report's own schema.
 const SCHEMA: &str = "clinothem-report-1";
@@ -27,26 +27,25 @@ impl Report {
             plan,
             assembly,
             level,
+            with_bounds,
         } = parts;
         let domain = plan.extent.volume();
+        let labels = labels::labels(model, &realisation.volumes);
         // What is a piece of an older volume is told of with that.
         let is_whole = |volume: &usize| realisation.rules.whole(*volume) == *volume;
-        let volumes: Vec<VolumeEntry> = (0..realisation.volumes.len())
-            .filter(is_whole)
-            .map(|volume| volume_entry(parts, volume))
+        let volumes: Vec<VolumeEntry> = labels
+            .into_iter()
+            .enumerate()
+            .filter(|(volume, _)| is_whole(volume))
+            .map(|(volume, label)| volume_entry(parts, volume, label))
             .collect();
         let facies: Vec<FaciesEntry> = model
             .facies
             .iter()
             .map(|facies| facies_entry(parts, facies, domain))
             .collect();
-        let net = facies
-            .iter()
-            .filter(|one| one.volume_m3 > 0.0)
-            .try_fold(0.0, |sum, one| {
-                one.net
-                    .map(|net| if net { sum + one.volume_m3 } else { sum })
-            });
+        let all: Vec<usize> = (0..realisation.volumes.len()).collect();
+        let totals = totals(&shares(parts, &all), with_bounds);
         let mut notes: Vec<String> = model
             .notes
             .iter()
@@ -81,7 +80,8 @@ impl Report {
             },
             volumes,
             facies,
-            net_to_gross: net.map(|net| net / domain),
+            net_to_gross: totals.net_volume_m3.map(|net| net / domain),
+            totals,
             rejected_draws: realisation
                 .rejections
                 .iter()
@@ -136,7 +136,7 @@ fn assembly_entry(assembly: &Assembly) -> AssemblyEntry {
     }
 }
 
-fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {
+fn volume_entry(parts: Parts<'_>, volume: usize, label: Option<String>) -> VolumeEntry {
     let Parts {
         model,
         realisation,
@@ -161,18 +161,13 @@ fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {
             area_m2: *area,
         })
         .collect();
-    let drawn = volume
-        .checked_sub(1)
-        .map(|instance| {
-            realisation.instances[instance]
-                .drawn
-                .iter()
-                .cloned()
-                .collect()
-        })
-        .unwrap_or_default();
+    let rock = &realisation.properties[volume];
+    let instance = volume.checked_sub(1).map(|at| &realisation.instances[at]);
+    let drawn = instance.into_iter().flat_map(|instance| &instance.drawn);
+    let drawn = drawn.chain(&rock.drawn).cloned().collect();
     VolumeEntry {
         name: rules.name.clone(),
+        display_name: label,
         feature: rules.feature.clone(),
         kind: rules.kind.clone(),
         level: rules.level,
@@ -184,7 +179,11 @@ fn volume_entry(parts: Parts<'_>, volume: usize) -> VolumeEntry {
         along: rules
             .along
             .map(|along| realisation.volumes[along].name.clone()),
-        properties: facies.map(properties).unwrap_or_default(),
+        properties: rock
+            .values
+            .iter()
+            .map(|(name, property)| (name.clone(), value(property)))
+            .collect(),
         drawn,
         volume_m3: measured.size_of(volume),
         solids: solid_names(&rules.name, pieces.len())
@@ -207,16 +206,23 @@ pub(crate) fn hex(facies: &Facies) -> String {
     format!("#{:02x}{:02x}{:02x}", color.r, color.g, color.b)
 }
 
-fn properties(facies: &Facies) -> BTreeMap<String, serde_json::Value> {
-    let value = |property: &Property| match property {
+/// A property as it stands in files.
+pub(crate) fn value(property: &Property) -> serde_json::Value {
+    match property {
         Property::Scalar(value) => serde_json::json!(value),
         Property::Vector(values) => serde_json::json!(values),
+        Property::Tensor(rows) => serde_json::json!(rows),
+    }
+}
+
+/// What volumes of these indices are to totals.
+fn shares<'a>(parts: Parts<'a>, volumes: &[usize]) -> Vec<Share<'a>> {
+    let share = |volume: &usize| Share {
+        facies: &parts.realisation.volumes[*volume].facies,
+        size: parts.assembly.measured.size_of(*volume),
+        rock: &parts.realisation.properties[*volume],
     };
-    facies
-        .properties
-        .iter()
-        .map(|(name, property)| (name.clone(), value(property)))
-        .collect()
+    volumes.iter().map(share).collect()
 }
 
 fn facies_entry(parts: Parts<'_>, facies: &Facies, domain: f64) -> FaciesEntry {
@@ -227,15 +233,21 @@ fn facies_entry(parts: Parts<'_>, facies: &Facies, domain: f64) -> FaciesEntry {
     } = parts;
     let measured = &assembly.measured;
     let is_ours = |volume: usize| realisation.volumes[volume].facies == facies.name;
-    let total: f64 = (0..realisation.volumes.len())
+    let ours: Vec<usize> = (0..realisation.volumes.len())
         .filter(|volume| is_ours(*volume))
-        .fold(0.0, |sum, volume| sum + measured.size_of(volume));
+        .collect();
+    let total = ours
+        .iter()
+        .fold(0.0, |sum, volume| sum + measured.size_of(*volume));
+    let totals = totals(&shares(parts, &ours), parts.with_bounds);
     FaciesEntry {
         name: facies.name.clone(),
+        display_name: facies.title.clone(),
         color: hex(facies),
-        net: facies.net,
+        net: totals.net_volume_m3.map(|net| net / total),
         volume_m3: total,
         fraction: total / domain,
+        totals,
         connected: groups(parts, &is_ours),
     }
 }

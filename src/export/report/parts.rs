@@ -19,6 +19,8 @@ pub struct Parts<'a> {
     pub assembly: &'a Assembly,
     /// How thorough its proof was.
     pub level: Level,
+    /// Whether to tell between what the permeability of many volumes as a whole lies.
+    pub with_bounds: bool,
 }
 
 /// The names of a volume's solids: its own, numbered if there are several.

@@ -35,6 +35,8 @@ pub struct Document {
 pub struct Node {
     /// Its name; give every node its own.
     pub name: String,
+    /// What it is called where people read, in any alphabet; its name if absent.
+    pub label: Option<String>,
     /// Red, green, blue (sRGB).
     pub color: Option<[u8; 3]>,
     /// Layer.
@@ -43,6 +45,13 @@ pub struct Node {
     pub description: Option<String>,
     /// What it consists of.
     pub content: Content,
+}
+
+impl Node {
+    /// What programs show.
+    pub(super) fn shown(&self) -> &str {
+        self.label.as_deref().unwrap_or(&self.name)
+    }
 }
 
 /// What a product consists of.

@@ -24,7 +24,7 @@ pub fn assembly(document: &Document, boundary: &Boundary) -> Result<Exchange, Ex
 
 /// The shared flavour: one product in which common faces are there once, and a closed shell by name for each solid.
 ///
-/// Only the root's name is used of the tree.
+/// Only the root is used of the tree.
 ///
 /// # Errors
 /// [`ExportError::Step`] if the number of names is not that of the shapes, or one of them is no solid of one shell: a closed
@@ -70,7 +70,7 @@ pub fn shared(
     }
     let mut products = Products::new(&mut file, document);
     products.single(
-        &document.root.name,
+        &document.root,
         "NON_MANIFOLD_SURFACE_SHAPE_REPRESENTATION",
         models,
     );

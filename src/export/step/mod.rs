@@ -28,15 +28,15 @@ mod tree;
 
 use std::path::Path;
 
-use self::tree::{Tree, color, facies_of, group};
+use self::tree::{Tree, color, facies_of, group, labelled};
 use super::ExportError;
 use super::report::solid_names;
-use super::text::ascii;
+use super::text::{ascii, one_line};
 use crate::assembly::kernel::{self, BridgeError};
 use crate::assembly::splines::EXACT;
 use crate::assembly::{self, Assembly};
-use crate::model::Model;
 use crate::model::realisation::Realisation;
+use crate::model::{Model, labels};
 
 pub use self::document::{Content, Document, Node, Protocol};
 pub use self::draft::Exchange;
@@ -67,6 +67,7 @@ pub fn write_assembly(
     let tree = Tree {
         model,
         realisation,
+        labels: labels::labels(model, &realisation.volumes),
         pieces: &|volume| {
             let pieces = assembly.measured.pieces_of(volume).iter();
             pieces.map(|piece| piece.solid).collect()
@@ -100,7 +101,8 @@ pub fn write_shared(
         .ordered_solids()
         .and_then(|solids| kernel::boundary(&solids))
         .map_err(|error| kernel_error(&error))?;
-    let mut document = document(model, protocol, group(ascii(&model.name), Vec::new()));
+    let root = labelled(group(ascii(&model.name), Vec::new()), Some(&model.name));
+    let mut document = document(model, protocol, root);
     document.accuracy = far::settle(&mut boundary, assembly.measured.tolerance);
     save(&shared(&document, &names, &boundary)?, path)
 }
@@ -113,8 +115,10 @@ pub fn write_surfaces(
     protocol: Protocol,
 ) -> Result<(), ExportError> {
     let (mut nodes, mut faces) = (Vec::new(), Vec::new());
+    let labels = labels::labels(model, &realisation.volumes);
     for instance in &realisation.instances {
         let rules = &realisation.volumes[instance.volume];
+        let label = labels[instance.volume].as_deref();
         let facies = facies_of(model, &rules.facies);
         let sheets = instance
             .body
@@ -128,6 +132,7 @@ pub fn write_surfaces(
         for (role, surface) in sheets.iter().filter(|(role, _)| role.is_geological()) {
             children.push(Node {
                 name: format!("{}/{}", rules.name, role.name()),
+                label: label.map(|label| format!("{label}/{}", role.name())),
                 color: facies.map(color),
                 layer: Some(ascii(role.name())),
                 description: None,
@@ -138,7 +143,7 @@ pub fn write_surfaces(
         }
         // What lies everywhere in its unit has no surface of its own.
         if !children.is_empty() {
-            nodes.push(group(rules.name.clone(), children));
+            nodes.push(labelled(group(rules.name.clone(), children), label));
         }
     }
     if faces.is_empty() {
@@ -146,7 +151,8 @@ pub fn write_surfaces(
             "no body of the model has a surface of its own".to_owned(),
         ));
     }
-    let mut document = document(model, protocol, group(ascii(&model.name), nodes));
+    let root = labelled(group(ascii(&model.name), nodes), Some(&model.name));
+    let mut document = document(model, protocol, root);
     let mut boundary = kernel::boundary(&faces).map_err(|error| kernel_error(&error))?;
     document.accuracy = far::settle(&mut boundary, EXACT);
     save(&self::assembly(&document, &boundary)?, path)
@@ -155,7 +161,7 @@ pub fn write_surfaces(
 fn document(model: &Model, protocol: Protocol, root: Node) -> Document {
     let [x, y, z] = model.origin;
     Document {
-        name: ascii(&model.name),
+        name: one_line(&model.name),
         system: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).to_owned(),
         description: format!("seed {}; local origin {x} {y} {z} m", model.seed),
         protocol,

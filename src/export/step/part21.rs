@@ -46,25 +46,38 @@ fn separator(at: usize) -> &'static str {
     }
 }
 
-/// A string in quotes: quotes and backslashes doubled, what is not ASCII as UTF-16.
+/// A string in quotes: quotes and backslashes doubled, what is not ASCII by its number, in four digits of \\X2\\ or, beyond these,
+/// in eight of \\X4\\.
 pub(super) struct Quoted<'a>(pub(super) &'a str);
 
 impl Display for Quoted<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // How the characters of a run are spelt.
+        let spelling = |c: char| match c {
+            ' '..='~' => "",
+            '\0'..='\u{ffff}' => "\\X2\\",
+            _ => "\\X4\\",
+        };
+        let mut run = "";
+        let mut change = |f: &mut fmt::Formatter<'_>, to: &'static str| {
+            if run != to {
+                f.write_str(if run.is_empty() { "" } else { "\\X0\\" })?;
+                f.write_str(to)?;
+                run = to;
+            }
+            Ok(())
+        };
         f.write_char('\'')?;
         for c in self.0.chars() {
-            match c {
-                '\'' | '\\' => write!(f, "{c}{c}")?,
-                ' '..='~' => f.write_char(c)?,
-                _ => {
-                    f.write_str("\\X2\\")?;
-                    for unit in c.encode_utf16(&mut [0; 2]) {
-                        write!(f, "{unit:04X}")?;
-                    }
-                    f.write_str("\\X0\\")?;
-                }
+            change(f, spelling(c))?;
+            match (c, spelling(c)) {
+                ('\'' | '\\', _) => write!(f, "{c}{c}")?,
+                (c, "") => f.write_char(c)?,
+                (c, "\\X2\\") => write!(f, "{:04X}", u32::from(c))?,
+                (c, _) => write!(f, "{:08X}", u32::from(c))?,
             }
         }
+        change(f, "")?;
         f.write_char('\'')
     }
 }

@@ -187,12 +187,11 @@ impl<'a, 'd> Products<'a, 'd> {
     }
 
     /// A product without a tree.
-    pub(super) fn single(&mut self, name: &str, kind: &str, items: Vec<Id>) {
-        self.product(name, "", kind, items);
+    pub(super) fn single(&mut self, node: &Node, kind: &str, items: Vec<Id>) {
+        self.product(node, kind, items);
     }
 
     fn node(&mut self, node: &Node, geometry: &mut Geometry<'a>) -> Product {
-        let description = node.description.as_deref().unwrap_or_default();
         match &node.content {
             Content::Shapes(indices) => {
                 let mut items = Items::default();
@@ -205,7 +204,7 @@ impl<'a, 'd> Products<'a, 'd> {
                 } else {
                     "MANIFOLD_SURFACE_SHAPE_REPRESENTATION"
                 };
-                let product = self.product(&node.name, description, kind, items.roots);
+                let product = self.product(node, kind, items.roots);
                 let layer = node.layer.as_deref();
                 self.presentation
                     .add(items.styled, layer, node.color, product.context);
@@ -216,12 +215,7 @@ impl<'a, 'd> Products<'a, 'd> {
                     .iter()
                     .map(|_| placement(self.to, &self.common.axes))
                     .collect();
-                let parent = self.product(
-                    &node.name,
-                    description,
-                    "SHAPE_REPRESENTATION",
-                    places.clone(),
-                );
+                let parent = self.product(node, "SHAPE_REPRESENTATION", places.clone());
                 for (child, place) in nodes.iter().zip(places) {
                     self.occurrences += 1;
                     let number = self.occurrences;
@@ -233,14 +227,10 @@ impl<'a, 'd> Products<'a, 'd> {
         }
     }
 
-    /// Products have a name each; those that share one have identifiers that differ.
-    fn product(
-        &mut self,
-        name: &str,
-        description: &str,
-        kind: &str,
-        mut items: Vec<Id>,
-    ) -> Product {
+    /// Products have a name each, which is their identifier, and a label, which programs show; identifiers of those that share a
+    /// name differ.
+    fn product(&mut self, node: &Node, kind: &str, mut items: Vec<Id>) -> Product {
+        let name = node.name.as_str();
         let count = self.names.entry(name.to_owned()).or_default();
         *count += 1;
         let identifier = match count {
@@ -258,8 +248,8 @@ impl<'a, 'd> Products<'a, 'd> {
         let product = to.add(format_args!(
             "PRODUCT({},{},{},({product_context}))",
             Quoted(&identifier),
-            Quoted(name),
-            Quoted(description)
+            Quoted(node.shown()),
+            Quoted(node.description.as_deref().unwrap_or_default())
         ));
         to.add(format_args!(
             "PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({product}))"
@@ -288,7 +278,7 @@ impl<'a, 'd> Products<'a, 'd> {
         let to = &mut *self.to;
         let occurrence = to.add(format_args!(
             "NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}',{},'',{},{},$)",
-            Quoted(&node.name),
+            Quoted(node.shown()),
             parent.definition,
             child.definition
         ));

@@ -2,16 +2,20 @@
 
 use super::document::{Content, Node};
 use crate::export::report::solid_names;
-use crate::export::text::ascii;
+use crate::export::text::{ascii, one_line};
+use crate::model::labels::feature_label;
+use crate::model::properties::VolumeProperties;
 use crate::model::realisation::Realisation;
 use crate::model::rules::VolumeRules;
-use crate::model::{Facies, Model, Property};
+use crate::model::{Facies, Model};
 
 /// Builds the tree of parts: the background, then a node for each feature with several instances, and
 /// for each volume that has children.
 pub(super) struct Tree<'a> {
     pub(super) model: &'a Model,
     pub(super) realisation: &'a Realisation,
+    /// What volumes are called where people read, if that is not their name.
+    pub(super) labels: Vec<Option<String>>,
     /// The shapes of a volume's pieces.
     pub(super) pieces: &'a dyn Fn(usize) -> Vec<usize>,
 }
@@ -20,11 +24,18 @@ pub(super) struct Tree<'a> {
 pub(super) fn group(name: String, nodes: Vec<Node>) -> Node {
     Node {
         name,
+        label: None,
         color: None,
         layer: None,
         description: None,
         content: Content::Nodes(nodes),
     }
+}
+
+/// The same with what it is called where people read.
+pub(super) fn labelled(node: Node, label: Option<&str>) -> Node {
+    let label = label.map(one_line).filter(|label| *label != node.name);
+    Node { label, ..node }
 }
 
 impl Tree<'_> {
@@ -40,7 +51,15 @@ impl Tree<'_> {
         }
         let mut children: Vec<Node> = self.leaf(0).into_iter().collect();
         children.extend(self.features(None));
-        group(name, children)
+        let shown = one_line(&self.model.name);
+        let label = (shown != ascii(&shown)).then_some(shown);
+        labelled(group(name, children), label.as_deref())
+    }
+
+    /// What a volume is called where people read.
+    fn label(&self, volume: usize) -> &str {
+        let name = &self.realisation.volumes[volume].name;
+        self.labels[volume].as_ref().unwrap_or(name)
     }
 
     /// Nodes of all features whose volumes lie in this one, or go along it.
@@ -63,7 +82,10 @@ impl Tree<'_> {
                 }
             }
             if instances.len() > 1 {
-                nodes.push(group(format!("{prefix}{feature}"), instances));
+                let above = parent.map_or("", |parent| self.label(parent));
+                let label = feature_label(self.model, above, feature);
+                let node = group(format!("{prefix}{feature}"), instances);
+                nodes.push(labelled(node, Some(&label)));
             } else {
                 nodes.extend(instances);
             }
@@ -78,8 +100,10 @@ impl Tree<'_> {
         if children.is_empty() {
             return leaf;
         }
-        let name = format!("{} with children", self.realisation.volumes[volume].name);
-        Some(group(name, leaf.into_iter().chain(children).collect()))
+        let with_children = |name: &str| format!("{name} with children");
+        let name = with_children(&self.realisation.volumes[volume].name);
+        let node = group(name, leaf.into_iter().chain(children).collect());
+        Some(labelled(node, Some(&with_children(self.label(volume)))))
     }
 
     /// The volume's own part, or nothing if it has no solid.
@@ -90,25 +114,33 @@ impl Tree<'_> {
         }
         let rules = &self.realisation.volumes[volume];
         let facies = facies_of(self.model, &rules.facies);
-        let part = |name: String, shape: usize| Node {
+        let rock = &self.realisation.properties[volume];
+        let description = |facies: &Facies| description(facies, rock);
+        let label = self.labels[volume].as_deref();
+        let part = |name: String, label: Option<String>, shape: usize| Node {
             name,
+            label,
             color: facies.map(color),
             layer: Some(ascii(&rules.facies)),
-            description: facies.map(description),
+            description: facies.map(&description),
             content: Content::Shapes(vec![shape]),
         };
         if let [shape] = shapes[..] {
-            return Some(part(rules.name.clone(), shape));
+            return Some(part(rules.name.clone(), label.map(one_line), shape));
         }
         // Each piece is a part: FreeCAD, build123d and cadquery lose the colour of a part of several solids.
-        let names = solid_names(&rules.name, shapes.len());
-        let pieces = names.into_iter().zip(shapes);
+        let count = shapes.len();
+        let names = solid_names(&rules.name, count);
+        let labels = label.map_or(vec![None; count], |label| {
+            let labels = solid_names(label, count).into_iter();
+            labels.map(Some).collect()
+        });
+        let pieces = names.into_iter().zip(labels).zip(shapes);
+        let pieces = pieces.map(|((name, label), shape)| part(name, label, shape));
+        let node = group(rules.name.clone(), pieces.collect());
         Some(Node {
-            description: facies.map(description),
-            ..group(
-                rules.name.clone(),
-                pieces.map(|(name, shape)| part(name, shape)).collect(),
-            )
+            description: facies.map(&description),
+            ..labelled(node, label)
         })
     }
 }
@@ -121,16 +153,13 @@ pub(super) fn color(facies: &Facies) -> [u8; 3] {
     [facies.color.r, facies.color.g, facies.color.b]
 }
 
-/// `facies=sand; porosity=0.24; permeability_mD=600,600,120`.
-fn description(facies: &Facies) -> String {
+/// `facies=sand; net=1; porosity=0.24; permeability_mD=600,600,120`; the six numbers of a tensor are xx, yy, zz, xy, yz, xz.
+fn description(facies: &Facies, rock: &VolumeProperties) -> String {
     let mut words = vec![format!("facies={}", ascii(&facies.name))];
-    for (name, property) in &facies.properties {
+    for (name, property) in &rock.values {
         let unit = if name == "permeability" { "_mD" } else { "" };
-        let value = match property {
-            Property::Scalar(value) => value.to_string(),
-            Property::Vector(values) => values.map(|value| value.to_string()).join(","),
-        };
-        words.push(format!("{}{unit}={value}", ascii(name)));
+        let numbers: Vec<String> = property.numbers().iter().map(f64::to_string).collect();
+        words.push(format!("{}{unit}={}", ascii(name), numbers.join(",")));
     }
     words.join("; ")
 }

@@ -340,6 +340,28 @@ impl Checker<'_> {
         };
         let facies = named.and_then(|(at, name)| self.known_facies(at, name, family.facies));
         let conform = self.conform(draft, family);
+        let properties = match draft.file.properties {
+            None => Some(Vec::new()),
+            Some(Field::Good(at, Any)) => match self.reader.tree.value(at) {
+                Value::Table(_) => {
+                    self.properties(at, &format!("the properties of {}", draft.name))
+                }
+                _ => {
+                    let found = self.reader.tree.describe(at);
+                    self.reader.wrong(
+                        at,
+                        format!(
+                            "expected a table for the properties of {}, found {found}",
+                            draft.name
+                        ),
+                        "write properties = { porosity = 0.25, permeability = { lognormal = [500, 300] } }",
+                    );
+                    None
+                }
+            },
+            Some(_) => None,
+        };
+        let title = self.title(draft.file.name.as_ref(), &draft.name);
         let removes = self.removes(draft, draft.file.removes.as_ref(), family);
         let removed_by = self.removed_by(draft, draft.file.removed_by.as_ref(), family);
         let preserve = match &draft.file.preserve {
@@ -356,6 +378,7 @@ impl Checker<'_> {
         };
         Some(Feature {
             id: draft.id.as_ref().map(|(_, id)| id.clone())?,
+            title: title.ok()?,
             kind: kind?,
             enabled: draft.enabled,
             count: instances(draft)?,
@@ -363,6 +386,7 @@ impl Checker<'_> {
             parent: None,
             along: None,
             facies: facies?,
+            properties: properties?,
             removes: removes?,
             removed_by: removed_by?,
             preserve,

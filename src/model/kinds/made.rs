@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::features::body::Body;
+use crate::features::fabric::Fabric;
 use crate::features::horizon::Horizon;
 use crate::features::reach::Reach;
 use crate::features::side::Side;
@@ -164,6 +165,11 @@ pub(crate) struct Part {
     pub(crate) drawn: Vec<(String, f64)>,
     /// Of what may conform to a surface: the elevation in it that comes to lie on that (m); its top if absent.
     pub(crate) level: Option<f64>,
+    /// How its layers lie, if its body, its channel and its unit do not tell.
+    pub(crate) fabric: Option<Fabric>,
+    /// Of a layer: the fraction of the way from the base to the top of what is divided at which it has its properties. All layers of
+    /// an instance share the draws of these.
+    pub(crate) fraction: Option<f64>,
 }
 
 /// What a volume takes from.
@@ -220,6 +226,8 @@ impl Part {
             facies: None,
             drawn: Vec::new(),
             level: None,
+            fabric: None,
+            fraction: None,
         }
     }
 }

@@ -30,6 +30,8 @@ use super::nature::{Gives, Nature};
 use super::references::Reference;
 use super::tables::by_kind;
 use body::BodySpec;
+use super::nature::Nature;
+use super::tables::by_kind_but;
 use channel::ChannelSpec;
 use clinoform::ClinoformSpec;
 use clinoforms::ClinoformsSpec;
@@ -267,5 +269,6 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         .iter()
         .map(|kind| (kind.nature.name, (kind.schema)(generator)))
         .collect();
-    json_schema!({ "type": "array", "items": by_kind(&common, &kinds) })
+    let lacking = |kind: &str| named(kind).map_or(Vec::new(), |kind| kind.nature.lacking());
+    json_schema!({ "type": "array", "items": by_kind_but(&common, &kinds, &lacking) })
 }

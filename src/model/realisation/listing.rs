@@ -2,6 +2,7 @@
 //! before anything is made.
 
 mod coincidence;
+mod rock;
 pub(super) mod volumes;
 
 use std::collections::BTreeMap;

@@ -8,6 +8,7 @@ pub(crate) mod limits;
 pub(crate) mod lobe;
 pub(crate) mod nets;
 pub(crate) mod profile;
+pub(crate) mod property;
 pub(crate) mod quantity;
 pub(crate) mod selector;
 pub(crate) mod surface;

@@ -231,6 +231,12 @@ impl JsonSchema for Profile {
                 "minItems": 2,
                 "maxItems": 2,
             },
+            "examples": [
+                50,
+                { "uniform": [40, 60] },
+                [[0, 40], [0.5, 60], [1, 40]],
+                { "expression": "50 + 10 * sin(2 * pi * s)" },
+            ],
         })));
         table.into()
     }

@@ -110,7 +110,7 @@ pub(crate) fn wrong_shape(reader: &Reader<'_>, node: NodeId, what: &str, varies:
     );
 }
 
-fn within(
+pub(crate) fn within(
     reader: &Reader<'_>,
     node: NodeId,
     what: &str,
@@ -167,6 +167,13 @@ impl JsonSchema for Quantity {
             json!("A number, or a distribution that it is drawn from."),
         );
         schema.insert("type".to_owned(), json!(["number", "object"]));
+        let examples = json!([
+            50,
+            { "uniform": [40, 60] },
+            { "triangular": [40, 50, 60] },
+            { "normal": [50, 5], "min": 40, "max": 60 },
+        ]);
+        schema.insert("examples".to_owned(), examples);
         schema
     }
 }

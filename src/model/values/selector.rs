@@ -244,6 +244,7 @@ impl JsonSchema for Selector {
         json_schema!({
             "type": ["string", "array"],
             "anyOf": [{ "enum": words }, { "type": "array" }],
+            "examples": ["older", "nothing", ["trunk", "background"], [{ "kind": "channel" }, { "level": 2 }]],
             "items": {
                 "description": "The id of a feature, of one of a set (\"lower-3\"), or \"background\"; or one of { id = … }, { kind = … }, { level = … }, { facies = … }.",
                 "type": ["string", "object"],

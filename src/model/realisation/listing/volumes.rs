@@ -2,9 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::rock::{Layers, Place, needs_fabric};
 use super::{Due, Listing};
-use crate::model::kinds::made::{Part, TakesFrom};
+use crate::features::extent::Extent;
+use crate::features::fabric::Fabric;
+use crate::model::kinds::made::{Frame, Made, Part, TakesFrom};
 use crate::model::nature::{self, Nature};
+use crate::model::properties::VolumeProperties;
 use crate::model::realisation::making::Built;
 use crate::model::realisation::{Instance, RealisationError};
 use crate::model::rules::{BACKGROUND, VolumeRules};
@@ -18,6 +22,8 @@ pub(in crate::model::realisation) struct Volumes {
     pub(in crate::model::realisation) rules: Vec<VolumeRules>,
     /// Their bodies: instance `i` is volume `i + 1`.
     pub(in crate::model::realisation) instances: Vec<Instance>,
+    /// Their rock properties, by volume.
+    pub(in crate::model::realisation) properties: Vec<VolumeProperties>,
     /// What was decided about them.
     pub(in crate::model::realisation) decisions: Vec<String>,
 }
@@ -29,7 +35,21 @@ impl Volumes {
         selection: &Selection,
         list: &Listing<'_>,
         built: Vec<Built>,
+        extent: &Extent,
     ) -> Result<Self, RealisationError> {
+        let background_rock = Place {
+            feature: "background",
+            number: "",
+            part: "",
+            name: "background",
+            facies: model.domain.facies,
+            own: &[],
+            fraction: None,
+            fabric: extent.bounds()[0]
+                .as_ref()
+                .and_then(|base| base.plan())
+                .map(|base| Fabric::of_horizon(base.horizon(), extent)),
+        };
         let mut adding = Adding {
             model,
             selection,
@@ -37,10 +57,13 @@ impl Volumes {
             volumes: Self {
                 rules: vec![background(model)],
                 instances: Vec::new(),
+                properties: vec![background_rock.properties(model)?],
                 decisions: Vec::new(),
             },
+            extent,
             firsts: Vec::with_capacity(built.len()),
             ends: Vec::with_capacity(built.len()),
+            frames: Vec::with_capacity(built.len()),
             units: BTreeMap::new(),
             open: BACKGROUND,
         };
@@ -63,10 +86,13 @@ struct Adding<'a> {
     /// By feature: the base that it lies nowhere below.
     above: &'a BTreeMap<usize, usize>,
     volumes: Volumes,
+    extent: &'a Extent,
     /// By instance so far, its first volume; none of what takes no part.
     firsts: Vec<Option<usize>>,
     /// By instance so far, what comes after its volumes.
     ends: Vec<usize>,
+    /// By instance so far, by what its children are placed.
+    frames: Vec<Frame>,
     /// The volumes of those bases so far that take part, by feature.
     units: BTreeMap<usize, usize>,
     /// The unit above the last base so far.
@@ -78,8 +104,12 @@ impl Adding<'_> {
     fn add(&mut self, due: &Due, built: Built) -> Result<(), RealisationError> {
         let feature = &self.model.features[due.feature];
         let nature = feature.kind.nature();
-        let parts = built.made.parts;
-        let decisions = built.made.decisions.into_iter();
+        let Made {
+            parts,
+            frame,
+            decisions,
+        } = built.made;
+        let decisions = decisions.into_iter();
         self.volumes
             .decisions
             .extend(decisions.map(|text| format!("{} {text}", feature.id)));
@@ -92,11 +122,13 @@ impl Adding<'_> {
             // They are counted by feature alone.
             nature::Volumes::Many { .. } => 0,
         };
+        let fabrics = self.fabrics(due, feature, &parts, &frame)?;
+        self.frames.push(frame);
         let first = self.volumes.rules.len();
         self.firsts.push(Some(first));
         // By part, its volume, or of what takes no part what it would take from.
         let mut places: Vec<Option<usize>> = Vec::with_capacity(parts.len());
-        for part in parts {
+        for (at, part) in parts.into_iter().enumerate() {
             let from = match part.from {
                 TakesFrom::Anything => None,
                 TakesFrom::Parent | TakesFrom::ParentItself => Some(parent.unwrap_or(BACKGROUND)),
@@ -121,6 +153,21 @@ impl Adding<'_> {
             if let Some(facies) = part.facies {
                 rules.facies.clone_from(&self.model.facies[facies].name);
             }
+            let rock = Place {
+                feature: &feature.id,
+                number: &due.number,
+                part: &part.name,
+                name: &rules.name,
+                facies: part.facies.unwrap_or(feature.facies),
+                // What has a facies of its own is rock of another kind.
+                own: match part.facies {
+                    None => &feature.properties,
+                    Some(_) => &[],
+                },
+                fraction: part.fraction,
+                fabric: fabrics.get(at).copied(),
+            };
+            self.volumes.properties.push(rock.properties(self.model)?);
             self.volumes.rules.push(rules);
             self.volumes.instances.push(Instance {
                 volume,
@@ -148,6 +195,31 @@ impl Adding<'_> {
             }
         }
         self.volumes
+    }
+
+    /// How the layers of each part lie; nothing if no property asks for that.
+    fn fabrics(
+        &self,
+        due: &Due,
+        feature: &Feature,
+        parts: &[Part],
+        frame: &Frame,
+    ) -> Result<Vec<Fabric>, RealisationError> {
+        if !needs_fabric(self.model, &feature.properties) {
+            return Ok(Vec::new());
+        }
+        let layers = Layers {
+            extent: self.extent,
+            own: frame,
+            parent: due.parent.map(|parent| &self.frames[parent]),
+            top: due.top.as_ref(),
+        };
+        layers
+            .of(parts)
+            .map_err(|reason| RealisationError::Impossible {
+                volume: due.name.clone(),
+                reason,
+            })
     }
 
     /// Whether a part takes part: neither it nor what it is a part of is left out.

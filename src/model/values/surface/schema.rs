@@ -95,5 +95,12 @@ fn surface(generator: &mut SchemaGenerator, isochore: Map<String, Value>) -> Sch
         &telling,
     );
     table.insert("type".to_owned(), json!("object"));
+    let examples = json!([
+        { "level": -20 },
+        { "dipping": { "through": [0, 0, -20], "dip_deg": 1, "azimuth_deg": 90 } },
+        { "grid": { "x": [0, 400], "y": [0, 700], "heights": [[-20, -21], [-22, -22]] } },
+        { "points": [[0, 0, -21], [400, 0, -20], [0, 700, -22]], "tolerance": 0.1 },
+    ]);
+    table.insert("examples".to_owned(), examples);
     table.into()
 }

@@ -5,6 +5,7 @@ mod read;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
+use serde_json::json;
 
 use super::quantity::Quantity;
 use crate::model::expression::Expression;
@@ -190,11 +191,16 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    or_form(
-        by_kind(&common, &kinds),
-        "like",
-        &LikeFile::json_schema(generator),
-    )
+    let mut schema = by_kind(&common, &kinds);
+    let examples = json!([
+        { "kind": "line", "azimuth_deg": 45 },
+        { "kind": "line", "from": [0, 300], "to": [1000, 600] },
+        { "kind": "points", "points": [[0, 400], [500, 600], [1000, 500]] },
+        { "kind": "sine-generated", "amplitude": 100, "wavelength": 500, "azimuth_deg": 45 },
+        { "kind": "parametric", "x": "1000 * t", "y": "500 + 80 * sin(2 * pi * t)" },
+    ]);
+    schema.insert("examples".to_owned(), examples);
+    or_form(schema, "like", &LikeFile::json_schema(generator))
 }
 
 fn parametrization(_: &mut SchemaGenerator) -> Schema {

@@ -34,8 +34,14 @@ impl Checker<'_> {
     /// The trajectory of one of the features.
     pub(crate) fn trajectory(&self, node: NodeId, family: &Family<'_>) -> Option<TrajectorySpec> {
         let draft = &family.drafts[family.own];
-        let table = Table { node, draft };
         let name = format!("the trajectory of {}", draft.name);
+        if let Some(remedy) = self.table_to_paste(node) {
+            let found = self.reader.tree.describe(node);
+            let message = format!("expected a table for {name}, found {found}");
+            self.reader.wrong(node, message, remedy);
+            return None;
+        }
+        let table = Table { node, draft };
         if self
             .reader
             .tree
@@ -95,6 +101,24 @@ impl Checker<'_> {
             other: other?,
             offset: offset.ok()?.unwrap_or(Quantity::Constant(0.0)),
         })
+    }
+
+    /// What to write in the place of a word, or of a list of points, that is to be a trajectory.
+    fn table_to_paste(&self, node: NodeId) -> Option<String> {
+        let list = "{ kind = \"points\", points = [[0, 400], [500, 600], [1000, 500]] }";
+        let table = match self.reader.tree.value(node) {
+            Value::List(_) => list,
+            Value::Text(word) => match suggest::nearest(word, &KINDS) {
+                Some("line") => "{ kind = \"line\", azimuth_deg = 45 }",
+                Some("points") => list,
+                Some("parametric") => {
+                    "{ kind = \"parametric\", x = \"1000 * t\", y = \"500 + 80 * sin(2 * pi * t)\" }"
+                }
+                _ => suggest::MEANDERING,
+            },
+            _ => return None,
+        };
+        Some(format!("write a table, for example: trajectory = {table}"))
     }
 
     /// Says so if a trajectory is written in world coordinates.
