@@ -4,9 +4,11 @@
 #include "occt-bridge/shim/shape.hpp"
 
 #include <Bnd_Box.hxx>
-#include <IntCurvesFace_ShapeIntersector.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <IntTools_Context.hxx>
+#include <gp_Lin.hxx>
 #include <gp_Pnt.hxx>
+#include <gp_XY.hxx>
 
 #include <array>
 
@@ -36,7 +38,21 @@ rust::Vec<FaceSampleData> sample_faces(const SolidsHandle& solids, std::size_t p
 
 struct ClassifierHandle {
   explicit ClassifierHandle(const TopoDS_Shape& solid);
-  IntCurvesFace_ShapeIntersector rays;
+  // A Bezier patch of a face's surface, or another surface as far as the face needs it.
+  struct Patch {
+    TopoDS_Face face;
+    Handle(GeomAdaptor_Surface) surface;
+    Bnd_Box box;
+    // Of a patch: where its parameters from 0 to 1 are in those of the surface.
+    bool is_part = false;
+    gp_XY from;
+    gp_XY to;
+  };
+  std::vector<Patch> patches;
+  // How long rays are.
+  double reach = 0.0;
+  // How often a ray passes through the faces; -1 if it meets an edge or grazes a face.
+  int crossings(const gp_Lin& line) const;
   std::vector<std::pair<TopoDS_Face, Bnd_Box>> faces;
   Handle(IntTools_Context) context;
   // 0 in, 1 out, 2 on
