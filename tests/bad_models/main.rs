@@ -10,9 +10,11 @@
 )]
 
 mod channels;
+mod clinoforms;
 mod ellipsoids;
 mod files;
 mod lags;
+mod nets;
 mod overrides;
 mod point_bars;
 mod shorefaces;
