@@ -116,6 +116,7 @@ fn list_of(value: &Value) -> String {
         "quantity" => format!("{many} quantities"),
         "number" => format!("{many} numbers"),
         "text" => format!("{many} names"),
+        "list of numbers" | "three numbers" | "list of lists" => "list of lists".to_owned(),
         _ => "list of tables".to_owned(),
     }
 }
@@ -180,6 +181,8 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         "a belt" => defined("Belt"),
         "a conform" => defined("Conform"),
         "a drape" => defined("Drape"),
+        "a join" => defined("Join"),
+        "a net" => defined("Net"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

@@ -1,8 +1,11 @@
 //! Clinoforms as a free template: a sigmoidal section carried along any crest in plan (\[J19\] §2.4.1, Fig. 6c).
 //!
 //! The section ([`sigmoid`]) falls from the crest, a height above the toe, over a length; x counts basinward from the crest. Beyond
-//! both ends it goes on along its own tangents, as far above and below as a unit reaches, and a little more: whatever bounds the unit
-//! cuts it there (\[J19\] §2.5.2). The crest goes on straight beyond its ends until the sheet has left the domain.
+//! both ends the sheet goes on as a **topset** and a **bottomset** with the gradients that it has there, ruled along the direction in
+//! which the set steps (so that no bend is too tight for them), as far above and below as a unit reaches, and a little more: whatever
+//! bounds the unit cuts it there (\[J19\] §2.5.2). The crest goes on straight beyond its ends until the sheet has left the domain.
+//! Where the crest runs aslant to the direction of stepping the topset is a little steeper across it than the slope's end; so the
+//! three are sheets of their own.
 //!
 //! A set steps by **translation** along one azimuth, not by offset curves: no bend is too tight for the next sheet, and what lies
 //! between two sheets a distance S apart has S·H of volume for each metre across that azimuth, however the crest bends (Cavalieri).
@@ -141,60 +144,75 @@ pub struct Room {
     pub unit: [f64; 2],
 }
 
-/// A section: knots and control points across, x basinward from the crest, y = elevation (m).
+/// A section: its slope, x basinward from the crest, y = elevation (m); and how far topset and bottomset go on in plan (m), with
+/// the gradient that it has at both ends.
 struct Section {
-    across: KnotVector,
-    points: Vec<DVec2>,
+    slope: [DVec2; 4],
+    above: f64,
+    below: f64,
+    gradient: f64,
 }
 
 impl FreeClinoformDesign {
-    /// The sheet that is a step (m) farther in the direction of stepping than the crest, and a rise (m) higher.
-    pub fn sheet(
+    /// The topset, the slope and the bottomset that are a step (m) farther in the direction of stepping than the crest, and a rise
+    /// (m) higher; u runs down.
+    pub fn sheets(
         &self,
         crest: &Trajectory,
         step: f64,
         rise: f64,
         room: &Room,
-    ) -> Result<Surface, FreeClinoformError> {
+    ) -> Result<[Surface; 3], FreeClinoformError> {
         let ahead = azimuth_vector(self.azimuth);
         self.check_turns(crest, ahead)?;
-        let Section { across, points } = self.section(rise, room)?;
+        let section = self.section(rise, room)?;
         let sign = self.basinward.sign();
         let placed = PlacedSection {
-            points: points.iter().map(|p| DVec2::new(sign * p.x, p.y)).collect(),
+            points: section
+                .slope
+                .iter()
+                .map(|p| DVec2::new(sign * p.x, p.y))
+                .collect(),
             tolerance: TOLERANCE * self.length,
         };
         let limits = Limits {
             angle: ANGLE,
             constant: true,
         };
-        let section = |_: f64| Ok(placed.clone());
-        let carried = carry(crest, limits, &[], Guides::Outline, &section).map_err(Box::new)?;
+        let same = |_: f64| Ok(placed.clone());
+        let carried = carry(crest, limits, &[], Guides::All, &same).map_err(Box::new)?;
         let by = step * ahead;
         // Level rows, to the last bit: what is interpolated is their course.
-        let rows = carried.rows.into_iter().zip(&points);
+        let rows = carried.rows.into_iter().zip(&section.slope);
         let net = rows
-            .flat_map(|(row, section)| {
-                let level = section.y;
+            .flat_map(|(row, point)| {
+                let level = point.y;
                 row.into_iter().map(move |p| (p.xy() + by).extend(level))
             })
             .collect();
-        let sheet = Surface::new(across, carried.along, net)?;
-        self.across_domain(&sheet, ahead, room, crest)
+        let slope = Surface::new(KnotVector::uniform(3, 4)?, carried.along, net)?;
+        let slope = self.across_domain(&slope, ahead, room, crest)?;
+        let down = ahead.extend(-section.gradient);
+        let (first, last) = slope.knots_u().domain();
+        let (crest, toe) = (slope.isocurve_u(first), slope.isocurve_u(last));
+        let topset = Surface::ruled(&crest.moved(-section.above * down), &crest)?;
+        let bottomset = Surface::ruled(&toe, &toe.moved(section.below * down))?;
+        Ok([topset, slope, bottomset])
     }
 
-    /// What lies basinward of it.
-    pub fn side(&self, sheet: Surface, room: &Room) -> Result<Side, FreeClinoformError> {
+    /// What lies basinward of them.
+    pub fn side(&self, sheets: [Surface; 3], room: &Room) -> Result<Side, FreeClinoformError> {
         let ahead = azimuth_vector(self.azimuth);
-        let (first, _) = along(sheet.net().iter().map(|p| p.xy()), ahead);
+        let places = sheets.iter().flat_map(Surface::net).map(|p| p.xy());
+        let (first, _) = along(places, ahead);
         let (_, last) = along(corners(room).into_iter(), ahead);
         let size = (room.high - room.low).xy().length();
         let far = (last - first).max(0.0) + size;
-        let swept = Swept::new("clinoform", vec![sheet], (far * ahead).extend(0.0))?;
+        let swept = Swept::new("clinoform", sheets.to_vec(), (far * ahead).extend(0.0))?;
         Ok(swept.side("clinoform"))
     }
 
-    /// The section with its ends, as far as the unit reaches.
+    /// The section, and how far it goes on until it has left the unit.
     fn section(&self, rise: f64, room: &Room) -> Result<Section, FreeClinoformError> {
         let Self { height, length, .. } = *self;
         let slope = sigmoid(height, length, self.steepest, self.toe)?;
@@ -213,21 +231,11 @@ impl FreeClinoformDesign {
         let least = LEAST_BEYOND * height;
         let above = (highest + margin - crest).max(least) / gradient;
         let below = (crest - height - lowest + margin).max(least) / gradient;
-        let down = DVec2::new(1.0, -gradient);
-        let slope = slope.map(|p| p + DVec2::Y * (crest - height));
-        let part = |k: usize| k as f64 / 3.0;
-        let upper = (0..3).map(|k| slope[0] - down * (above * (1.0 - part(k))));
-        let lower = (1..=3).map(|k| slope[3] + down * (below * part(k)));
-        let points = upper.chain(slope).chain(lower).collect();
-        // The speed at an end of the sigmoid is three times its first leg: spans in which the straight ends have it, too.
-        let [before, after] = [above, below].map(|reach| reach / (3.0 * run));
-        let mut knots = vec![-before; 4];
-        knots.extend([0.0; 3]);
-        knots.extend([1.0; 3]);
-        knots.extend([1.0 + after; 4]);
         Ok(Section {
-            across: KnotVector::new(3, knots)?,
-            points,
+            slope: slope.map(|p| p + DVec2::Y * (crest - height)),
+            above,
+            below,
+            gradient,
         })
     }
 

@@ -1,6 +1,6 @@
 //! Control nets of one's own: points, degrees, weights and knots as someone gives them (\[J19\] §2.2–2.3, Fig. 3).
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use crate::nurbs::{KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
@@ -155,33 +155,63 @@ impl NetDesign {
     }
 }
 
-/// The parts of a surface between the knots at which it may have kinks: those that are there as often as the degree says.
+/// How different the speeds on both sides of a knot may be for a surface that has no kink there, as a fraction of them.
+const NO_KINK: f64 = 1e-9;
+
+/// The parts of a surface between its kinks: knots that are there as often as the degree says, at which its speed jumps.
 pub fn smooth_parts(surface: &Surface) -> Result<Vec<Surface>, NetError> {
-    let kinks = |knots: &KnotVector| {
-        let all = knots.distinct();
-        let inner = all[1..all.len() - 1].iter();
-        let sharp = inner.filter(|(_, count)| *count >= knots.degree());
-        sharp.map(|(knot, _)| *knot).collect::<Vec<f64>>()
-    };
+    let mut parts = Vec::new();
+    for strip in parts_along_v(surface)? {
+        let own = parts_along_v(&strip.transposed())?;
+        parts.extend(own.iter().map(Surface::transposed));
+    }
+    Ok(parts)
+}
+
+/// The parts between the kinks along v.
+fn parts_along_v(surface: &Surface) -> Result<Vec<Surface>, NetError> {
+    let knots = surface.knots_v();
+    let all = knots.distinct();
     let mut parts = Vec::new();
     let mut rest = surface.clone();
-    for knot in kinks(surface.knots_u()) {
-        let (before, after) = rest.split_u(knot)?;
-        parts.push(before);
-        rest = after;
-    }
-    parts.push(rest);
-    let mut smooth = Vec::new();
-    for part in parts {
-        let mut rest = part.clone();
-        for knot in kinks(part.knots_v()) {
-            let (before, after) = rest.split_v(knot)?;
-            smooth.push(before);
+    for (knot, count) in &all[1..all.len() - 1] {
+        if *count < knots.degree() {
+            continue;
+        }
+        let (before, after) = rest.split_v(*knot)?;
+        let ends = [end_speeds(&before, true), end_speeds(&after, false)];
+        let greatest = ends.iter().flatten().map(|speed| speed.length());
+        let most = NO_KINK * greatest.fold(0.0, f64::max);
+        let mut pairs = ends[0].iter().zip(&ends[1]);
+        if pairs.any(|(one, other)| one.distance(*other) > most) {
+            parts.push(before);
             rest = after;
         }
-        smooth.push(rest);
     }
-    Ok(smooth)
+    parts.push(rest);
+    Ok(parts)
+}
+
+/// How fast the rows of a surface run at the end, or at the start, of v, in homogeneous coordinates.
+fn end_speeds(surface: &Surface, at_end: bool) -> Vec<DVec4> {
+    let knots = surface.knots_v();
+    let (q, count, all) = (knots.degree(), knots.count(), knots.as_slice());
+    let span = if at_end {
+        all[count] - all[count - 1]
+    } else {
+        all[q + 1] - all[q]
+    };
+    let first = if at_end { count - 2 } else { 0 };
+    let homogeneous = |k: usize| {
+        let w = surface.weights()[k];
+        (surface.net()[k] * w).extend(w)
+    };
+    let rows = surface.knots_u().count();
+    let speed = |row: usize| {
+        let at = row * count + first;
+        (homogeneous(at + 1) - homogeneous(at)) * (q as f64 / span)
+    };
+    (0..rows).map(speed).collect()
 }
 
 /// A place at which a surface cannot be told to run one way round in plan: it folds there, or stands upright.

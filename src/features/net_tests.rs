@@ -32,7 +32,20 @@ fn a_net_is_the_surface_of_its_degrees() {
     let surface = one.build().unwrap();
     // Of degree 1 it passes through its control points.
     assert_eq!(surface.point(1.0 / 3.0, 0.5), DVec3::new(1.0, 2.0, 9.0));
+    // Bent at every knot but where rows of points are in one line: the hump is at the second of three inner columns.
     assert_eq!(smooth_parts(&surface).unwrap().len(), 12);
+    let level = NetDesign {
+        points: vec![
+            vec![DVec3::ZERO, DVec3::Y, 2.0 * DVec3::Y],
+            vec![DVec3::X, DVec3::X + DVec3::Y, DVec3::X + 2.0 * DVec3::Y],
+        ],
+        degree: [Some(1), Some(1)],
+        ..NetDesign::default()
+    };
+    let level = level.build().unwrap();
+    assert_eq!(smooth_parts(&level).unwrap().len(), 1);
+    let longer = level.extended_v([0.1, 0.2]).unwrap();
+    assert_eq!(smooth_parts(&longer).unwrap().len(), 1);
     assert_eq!(smooth_parts(&net().build().unwrap()).unwrap().len(), 1);
 }
 

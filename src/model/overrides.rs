@@ -54,6 +54,14 @@ pub(crate) fn apply(
                     )]);
                 }
             }
+            Value::List(elements) => {
+                let at = element(tree, elements, step)?;
+                let list = table;
+                table = if last { value } else { elements[at] };
+                if last && let Value::List(elements) = tree.value_mut(list) {
+                    elements[at] = value;
+                }
+            }
             _ => {
                 let parent = &path[depth - 1];
                 return Err(vec![Defect::new(
@@ -156,6 +164,31 @@ fn put(tree: &mut Tree, table: NodeId, step: &Entry, node: NodeId) {
             None => entries.push(entry),
         }
     }
+}
+
+/// The place in a list of what a step names: by its number from 1, as messages count, or by its `name`.
+fn element(tree: &Tree, elements: &[NodeId], step: &Entry) -> Result<usize, Vec<Defect>> {
+    let named = |node: &NodeId| {
+        let name = tree.entry(*node, "name");
+        name.and_then(|entry| tree.text(entry.node)) == Some(&step.key)
+    };
+    let number = step.key.parse::<usize>().ok();
+    let by_number = number.and_then(|number| number.checked_sub(1));
+    let found = elements
+        .iter()
+        .position(named)
+        .or(by_number.filter(|at| *at < elements.len()));
+    found.ok_or_else(|| {
+        vec![Defect::new(
+            step.key_span,
+            format!(
+                "{} is no place in a list of {}",
+                suggest::code(&step.key),
+                elements.len()
+            ),
+            "name an entry by its number, from 1, or by its `name`, as feature.fold.nets.points.2.3.3=-20",
+        )]
+    })
 }
 
 fn feature(tree: &Tree, list: NodeId, step: &Entry) -> Result<NodeId, Vec<Defect>> {

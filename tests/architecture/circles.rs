@@ -21,7 +21,9 @@ const KNOWN: &[&[&str]] = &[
     &["model/expression.rs", "model/formula.rs"],
     // The list of kinds has the trait that they all are.
     &[
+        "model/kinds/body.rs",
         "model/kinds/channel.rs",
+        "model/kinds/clinoform.rs",
         "model/kinds/clinoforms.rs",
         "model/kinds/clinoforms/draw.rs",
         "model/kinds/ellipsoid.rs",
@@ -29,6 +31,7 @@ const KNOWN: &[&[&str]] = &[
         "model/kinds/lag.rs",
         "model/kinds/mod.rs",
         "model/kinds/point_bars.rs",
+        "model/kinds/sheet.rs",
     ],
     &[
         "model/realisation.rs",

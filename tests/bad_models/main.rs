@@ -11,9 +11,11 @@
 
 mod bodies;
 mod channels;
+mod clinoforms;
 mod ellipsoids;
 mod files;
 mod lags;
+mod nets;
 mod overrides;
 mod point_bars;
 mod references;

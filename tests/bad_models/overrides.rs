@@ -20,6 +20,9 @@ fn overrides_are_checked_and_point_to_the_argument() {
             23,
             "holds the number 50, which has no key `x`",
         ),
+        ("domain.x.3=5", 10, "`3` is no place in a list of 2"),
+        ("domain.x.0=5", 10, "is no place in a list of 2"),
+        ("domain.x.1=\"a\"", 12, "expected a number"),
         ("feature.channel={}", 1, "cannot be replaced as a whole"),
         ("seed", 1, "has no value"),
         ("=3", 1, "not a path of keys"),
@@ -41,4 +44,18 @@ fn overrides_are_checked_and_point_to_the_argument() {
         );
         assert!(defects.to_string().contains(words), "{argument}: {defects}");
     }
+}
+
+#[test]
+fn an_entry_of_a_list_is_set_by_its_number_from_1() {
+    let check = |arguments: &[&str]| {
+        let mut source = Source::from_text("good.toml", TOML, Format::Toml);
+        for argument in arguments {
+            source.set(argument);
+        }
+        Model::check(&source).unwrap()
+    };
+    let [before, after] = [&[][..], &["domain.x.2=4321"]].map(check);
+    assert_eq!(after.domain.x, [before.domain.x[0], 4321.0]);
+    assert_eq!(after.domain.y, before.domain.y);
 }

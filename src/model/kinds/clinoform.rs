@@ -97,7 +97,7 @@ pub(crate) struct ClinoformFile {
     /// Steepest dip in degrees, halfway down: more than that of a straight line from crest to toe, at most 80; if left out, its gradient is twice that line's.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) dip_deg: Option<Field<Any>>,
-    /// Gradient at crest and toe as a fraction of the straight line's, between 0.02 and 0.95; 0.3 if left out. Beyond both ends sheets go on with it until they have left the unit.
+    /// Gradient at crest and toe as a fraction of the straight line's, between 0.02 and 0.95; 0.3 if left out. Beyond both ends sheets go on with it, straight along `azimuth_deg`, until they have left the unit.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) toe: Option<Field<Any>>,
     /// The first crest, in plan. Beyond its ends it goes on straight as far as the domain reaches.
@@ -227,22 +227,20 @@ impl Kind for ClinoformSpec {
         };
         let design = self.design(&crest, unit, site.nudge, draws)?;
         let climb = draws.quantity(&self.climb_deg, "climb_deg")?.to_radians();
-        let first = draws.taken();
         let mut step = 0.0;
         let mut parts: Vec<Part> = Vec::with_capacity(self.sheets);
+        // By sheet, where what was drawn for it ends.
+        let mut ends = Vec::with_capacity(self.sheets);
         for number in 1..=self.sheets {
             if let Some(spacing) = self.spacing.as_ref().filter(|_| number > 1) {
                 step += draws.quantity(spacing, &format!("spacing-{number}"))?;
             }
             let made = design
-                .sheet(&crest, step + site.nudge, step * climb.tan(), &room)
-                .and_then(|sheet| design.side(sheet, &room));
+                .sheets(&crest, step + site.nudge, step * climb.tan(), &room)
+                .and_then(|sheets| design.side(sheets, &room));
             let side =
                 made.map_err(|error| (reason(&error), format!("sheet {number}: {error}")))?;
-            let mut drawn = draws.taken();
-            if number == 1 {
-                drawn = [first.clone(), drawn].concat();
-            }
+            ends.push(draws.drawn.len());
             let facies = self.clinothem_facies.iter().cycle().nth(number - 1);
             parts.push(Part {
                 name: format!("-{number}"),
@@ -250,9 +248,14 @@ impl Kind for ClinoformSpec {
                     .checked_sub(2)
                     .map_or(TakesFrom::Parent, TakesFrom::Part),
                 facies: facies.copied(),
-                drawn,
                 ..Part::of(Body::Side(Arc::new(side)))
             });
+        }
+        let mut drawn = draws.taken().into_iter();
+        let mut start = 0;
+        for (part, end) in parts.iter_mut().zip(ends) {
+            part.drawn = drawn.by_ref().take(end - start).collect();
+            start = end;
         }
         Ok(Made {
             parts,

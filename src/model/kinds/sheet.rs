@@ -17,6 +17,9 @@ use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::values::nets;
 
+/// Where a sheet moves so that contacts which coincide are decided by age: down, and so that its kinks lie on no wall.
+const ASIDE: DVec3 = DVec3::new(0.43, 0.31, 1.0);
+
 /// A sheet from control nets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetSpec {
@@ -63,7 +66,7 @@ impl Kind for SheetSpec {
     }
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
-        let nets = self.placed.draw(site.nudge * DVec3::Z, draws)?;
+        let nets = self.placed.draw(site.nudge * ASIDE, draws)?;
         let (low, high) = site.domain.corners();
         let side = nets
             .above(low, high)

@@ -65,7 +65,7 @@ pub(crate) struct JoinFile {
 
 fn degrees(_: &mut SchemaGenerator) -> Schema {
     let one = json_schema!({ "type": "integer", "minimum": 1, "maximum": MOST_DEGREE });
-    json_schema!({ "anyOf": [one, { "type": "array", "items": one, "minItems": 2, "maxItems": 2 }] })
+    json_schema!({ "type": ["integer", "array"], "minimum": 1, "maximum": MOST_DEGREE, "items": one, "minItems": 2, "maxItems": 2 })
 }
 
 fn sides(_: &mut SchemaGenerator) -> Schema {

@@ -1,0 +1,242 @@
+//! Clinoforms along a crest, and sheets and bodies from control nets: volumes against closed forms, both engines, draws.
+#![cfg(feature = "occt")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+mod assembled;
+
+use std::f64::consts::PI;
+
+use assembled::{Built, from_text};
+use clinothem::assembly::Engine;
+use clinothem::model::selection::Selection;
+
+/// Four clinoforms of 20 m in a unit as high, along a crest that swings; basinward is east.
+const DELTA: &str = r#"
+name = "Delta"
+[domain]
+x = [0, 1000]
+y = [0, 400]
+z = [-20, 0]
+facies = "mud"
+[facies.mud]
+[facies.sand]
+[[feature]]
+id = "delta"
+kind = "clinoform"
+facies = "sand"
+length = 250
+dip_deg = 8
+sheets = 4
+spacing = 110
+azimuth_deg = 90
+trajectory = { kind = "points", points = [[150, -50], [190, 100], [240, 250], [200, 450]] }
+"#;
+
+/// A net over a block whose control points lie evenly, and another level.
+const SHEET: &str = r#"
+name = "Sheet"
+[domain]
+x = [0, 300]
+y = [0, 200]
+z = [-50, 0]
+facies = "mud"
+[facies.mud]
+[facies.sand]
+[[feature]]
+id = "sheet"
+kind = "sheet"
+facies = "sand"
+[feature.nets]
+degree = [2, 1]
+points = [
+  [[0, 0, -20], [0, 200, -30]],
+  [[150, 0, -10], [150, 200, -36]],
+  [[300, 0, -25], [300, 200, -20]],
+]
+"#;
+
+fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
+    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
+}
+
+#[test]
+fn between_clinoforms_lies_spacing_times_height_for_each_metre_of_strike() {
+    let straight =
+        "feature.delta.trajectory={ kind = \"line\", from = [150, -10], to = [150, 410] }";
+    for overrides in [&[][..], &[straight]] {
+        let built = built(DELTA, overrides, Engine::Partition);
+        let expected = 110.0 * 20.0 * 400.0;
+        for number in 1..=3 {
+            let volume = built.size(&format!("delta-{number}"));
+            assert!((volume - expected).abs() < 1e-6 * expected, "{volume}");
+        }
+        assert_eq!(built.solids(), 5);
+    }
+    // Landward of the first one: as the section is symmetrical, half of what is above the slope.
+    let built = built(DELTA, &[straight], Engine::Partition);
+    let landward = built.size("background");
+    let expected = (150.0 + 125.0) * 20.0 * 400.0;
+    assert!((landward - expected).abs() < 1e-9 * expected, "{landward}");
+}
+
+#[test]
+fn the_general_fuse_makes_the_same_clinoforms_and_sheets() {
+    for (text, names) in [(DELTA, &["delta-1", "delta-4"][..]), (SHEET, &["sheet"])] {
+        let [one, other] = [Engine::Partition, Engine::Occt].map(|engine| built(text, &[], engine));
+        assert_eq!(one.solids(), other.solids());
+        for name in names {
+            let (a, b) = (one.size(name), other.size(name));
+            assert!((a - b).abs() < 1e-6 * a, "{name}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn clinoforms_divide_a_unit_between_bent_horizons() {
+    let horizons = r#"
+[[feature]]
+id = "shelf"
+kind = "horizon"
+facies = "mud"
+surface = { grid = { x = [0, 1000], y = [0, 400], heights = [[-16, -17, -18], [-17, -15, -18.5]] } }
+[[feature]]
+id = "flood"
+kind = "horizon"
+facies = "mud"
+surface = { dipping = { through = [0, 0, -3], dip_deg = 0.1, azimuth_deg = 90 } }
+"#;
+    let text = DELTA.replace(
+        "kind = \"clinoform\"",
+        "kind = \"clinoform\"\nparent = \"shelf\"",
+    );
+    let (head, delta) = text.split_at(text.find("[[feature]]").unwrap());
+    let text = format!("{head}{horizons}{delta}");
+    let built = built(&text, &[], Engine::Partition);
+    let all: f64 = (1..=4)
+        .map(|number| built.size(&format!("shelf/delta-{number}")))
+        .sum();
+    assert!(all > 0.0 && built.size("shelf") > 0.0);
+    // What they have and what the shelf keeps is what the shelf has without them.
+    let alone = Built::new(
+        from_text(&text, &["feature.delta.enabled=false"]),
+        &Selection::default(),
+        Engine::Partition,
+    );
+    let whole = alone.unwrap().size("shelf");
+    assert!((all + built.size("shelf") - whole).abs() < 1e-8 * whole);
+}
+
+#[test]
+fn a_crest_that_climbs_or_falls_is_proven_too() {
+    for (height, crest, climb) in [(10, -8, 1.5), (10, -2, -1.0), (14, -5, 0.4)] {
+        let overrides = [
+            format!("feature.delta.height={height}"),
+            format!("feature.delta.crest={crest}"),
+            format!("feature.delta.climb_deg={climb}"),
+            "feature.delta.dip_deg=6".to_owned(),
+        ];
+        let overrides = overrides.each_ref().map(String::as_str);
+        let built = built(DELTA, &overrides, Engine::Partition);
+        assert!(built.size("delta-1") > 0.0 && built.size("delta-4") > 0.0);
+    }
+}
+
+/// The mean height of the sheet: of evenly placed control points that of their heights, since all Bernstein polynomials of a degree have
+/// one integral.
+#[test]
+fn above_a_bezier_sheet_lies_what_its_control_points_say() {
+    let built_with = |overrides: &[&str]| built(SHEET, overrides, Engine::Partition).size("sheet");
+    let mean = (-20.0 - 30.0 - 10.0 - 36.0 - 25.0 - 20.0) / 6.0;
+    let plan = 300.0 * 200.0;
+    let volume = built_with(&[]);
+    assert!((volume + mean * plan).abs() < 1e-9 * volume, "{volume}");
+    // One control point by 6 m: a sixth of that all over.
+    let raised = built_with(&["feature.sheet.nets.points.2.2.3=-30"]);
+    assert!((volume - raised - 1.0 * plan).abs() < 1e-9 * volume);
+    // Of degree 1 each way: trapezia.
+    let straight = built_with(&["feature.sheet.nets.degree=1"]);
+    let ends = [-25.0, -23.0, -22.5];
+    let mean = (0.5 * ends[0] + ends[1] + 0.5 * ends[2]) / 2.0;
+    assert!((straight + mean * plan).abs() < 1e-9 * volume, "{straight}");
+}
+
+#[test]
+fn a_sheet_of_several_nets_is_proven_and_tells_how_they_join() {
+    for (smooth, is_smooth) in [("false", false), ("true", true)] {
+        let nets = format!(
+            r#"feature.sheet.nets=[{{ name = "west", degree = 2, points = [[[-9, -9, -20], [-9, 100, -22], [-9, 209, -25]], [[60, -9, -15], [60, 100, -22], [60, 209, -25]], [[140, -9, -25], [140, 100, -20], [140, 209, -21]]] }}, {{ degree = 3, points = [[[150, -9, -20], [150, 60, -22], [150, 120, -25], [150, 209, -20]], [[200, -9, -20], [200, 60, -12], [200, 120, -25], [200, 209, -28]], [[240, -9, -30], [240, 60, -22], [240, 120, -25], [240, 209, -20]], [[309, -9, -20], [309, 60, -22], [309, 120, -35], [309, 209, -20]]], joins = {{ to = "west", smooth = {smooth} }} }}]"#
+        );
+        let built = built(SHEET, &[&nets], Engine::Partition);
+        assert_eq!(built.solids(), 2);
+        let told = &built.realisation.decisions;
+        let line = told
+            .iter()
+            .find(|line| line.contains("joined to west"))
+            .unwrap();
+        assert_eq!(line.contains("up to 0.0000°"), is_smooth, "{line}");
+    }
+}
+
+/// A ball of one closed net, and a lens between two nets with one rim.
+#[test]
+fn bodies_from_nets_have_the_volumes_of_their_closed_forms() {
+    let w = 0.5_f64.sqrt();
+    let half = [
+        (0.0, -1.0, 1.0),
+        (1.0, -1.0, w),
+        (1.0, 0.0, 1.0),
+        (1.0, 1.0, w),
+        (0.0, 1.0, 1.0),
+    ];
+    let around = [
+        (1, 0),
+        (1, 1),
+        (0, 1),
+        (-1, 1),
+        (-1, 0),
+        (-1, -1),
+        (0, -1),
+        (1, -1),
+        (1, 0),
+    ];
+    let (mut points, mut weights) = (Vec::new(), Vec::new());
+    for (k, (x, y)) in around.into_iter().enumerate() {
+        let own = if k % 2 == 0 { 1.0 } else { w };
+        let (x, y) = (f64::from(x), f64::from(y));
+        points.push(half.map(|(r, z, _)| [12.0 * x * r, 12.0 * y * r, 12.0 * z]));
+        weights.push(half.map(|(_, _, weight)| own * weight));
+    }
+    let body = format!(
+        "feature.sheet={{}}\nkind = \"body\"\nat = [150, 100, -20]\nnets = {{ degree = 2, points = {points:?}, weights = {weights:?}, \
+         knots = [[0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], [0, 0, 0, 1, 1, 2, 2, 2]] }}\n"
+    );
+    let head = &SHEET[..SHEET.find("kind = \"sheet\"").unwrap()];
+    let body = body.replace("feature.sheet={}\n", "");
+    let ball = format!("{head}facies = \"sand\"\n{body}");
+    for engine in [Engine::Partition, Engine::Occt] {
+        let volume = built(&ball, &[], engine).size("sheet");
+        let expected = 4.0 / 3.0 * PI * 12.0_f64.powi(3);
+        assert!((volume - expected).abs() < 1e-6 * expected, "{volume}");
+    }
+    let lens = format!(
+        "{head}facies = \"sand\"\nkind = \"body\"\nat = [150, 100, -25]\nazimuth_deg = 30\nnets = [{{ degree = 2, points = {} }}, {{ degree = 2, points = {} }}]\n",
+        rectangle(-18.0),
+        rectangle(9.0)
+    );
+    // The middle one of nine control points has a ninth of all, over 80 m × 50 m.
+    let expected = (18.0 + 9.0) / 9.0 * 80.0 * 50.0;
+    for engine in [Engine::Partition, Engine::Occt] {
+        let volume = built(&lens, &[], engine).size("sheet");
+        assert!((volume - expected).abs() < 1e-6 * expected, "{volume}");
+    }
+}
+
+/// Nine points, of which only the middle one is not level.
+fn rectangle(middle: f64) -> String {
+    let row = |x: f64, z: f64| [[x, -25.0, 0.0], [x, 0.0, z], [x, 25.0, 0.0]];
+    format!("{:?}", [row(-40.0, 0.0), row(0.0, middle), row(40.0, 0.0)])
+}
