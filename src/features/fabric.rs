@@ -114,7 +114,7 @@ impl Fabric {
                     .sum();
                 Some(Self::of_plane(normal, level))
             }
-            Ends::Plan(_) | Ends::NoSheet | Ends::Hanging { .. } => None,
+            Ends::Plan(_) | Ends::NoSheet | Ends::Closed(_) | Ends::Hanging { .. } => None,
         }
     }
 

@@ -71,7 +71,6 @@ pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
 pub use kinds::scour::{Place as ScourPlace, ScourSpec, Way as ScourWay};
 pub use nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 pub use kinds::sheet::SheetSpec;
-pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};
 pub use references::{Host, Reference};
 pub use properties::Property;

@@ -13,6 +13,7 @@ use crate::features::free_clinoform::{Basinward, FreeClinoformDesign, FreeClinof
 use crate::model::draws::{Draws, Reason, diagonal};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
+use crate::model::references::Reference;
 use crate::model::tree::quoted;
 use crate::model::values::limits::{ANY, AZIMUTH, Limits, POSITIVE};
 use crate::model::values::quantity::Quantity;
@@ -168,7 +169,7 @@ impl Kind for ClinoformSpec {
         let example = "trajectory = { kind = \"line\", azimuth_deg = 0 }";
         let trajectory = keys
             .need(file.trajectory, "trajectory", example)
-            .and_then(|(node, Any)| keys.checker.trajectory(node, keys.draft));
+            .and_then(|(node, Any)| keys.checker.trajectory(node, keys.family));
         let basinward = keys.basinward(file.basinward);
         let sheets = keys.number_of_sheets(file.sheets);
         let spacing = keys.optional_quantity(file.spacing, "spacing", POSITIVE);
@@ -200,6 +201,10 @@ impl Kind for ClinoformSpec {
         })
     }
 
+    fn refers(&self) -> Vec<&Reference> {
+        self.trajectory.refers()
+    }
+
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
         let (Frame::Unit(base), Some(top)) = (site.frame, site.top) else {
             return Err(("no unit", "its base or its top is no horizon".to_owned()));
@@ -223,7 +228,7 @@ impl Kind for ClinoformSpec {
         let room = Room { low, high, unit };
         let crest = {
             let overshoot = OVERSHOOT * diagonal(site.domain);
-            trajectory::trajectory(&self.trajectory, site.domain, overshoot, draws)?
+            trajectory::trajectory(&self.trajectory, site, overshoot, draws)?
         };
         let design = self.design(&crest, unit, site.nudge, draws)?;
         let climb = draws.quantity(&self.climb_deg, "climb_deg")?.to_radians();
