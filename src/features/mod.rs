@@ -16,6 +16,7 @@ pub mod extrusion;
 pub mod frame;
 pub mod horizon;
 pub mod join;
+pub mod junction;
 pub mod lag;
 pub mod levee;
 pub mod lobe;

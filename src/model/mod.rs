@@ -57,8 +57,10 @@ pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
+pub use kinds::levee::LeveeSpec;
 pub use kinds::made::Bound;
 pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
+pub use kinds::splay::SplaySpec;
 pub use nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};
 pub use references::{Host, Reference};
@@ -67,9 +69,11 @@ pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{Feature, Model};
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};
+pub use values::bank::Side;
 pub use values::distribution::{
     Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
 };
+pub use values::junction::Joins;
 pub use values::profile::Profile;
 pub use values::quantity::Quantity;
 pub use values::selector::{Pick, Selector};

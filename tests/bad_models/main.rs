@@ -10,6 +10,7 @@
 )]
 
 mod channels;
+mod companions;
 mod ellipsoids;
 mod files;
 mod lags;

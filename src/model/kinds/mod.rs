@@ -11,8 +11,10 @@ pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
+pub(crate) mod levee;
 pub(crate) mod made;
 pub(crate) mod point_bars;
+pub(crate) mod splay;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -27,8 +29,10 @@ use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use lag::LagSpec;
+use levee::LeveeSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
+use splay::SplaySpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -199,6 +203,10 @@ kinds! {
     Lag(LagSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
+    /// Wedges on the banks of a channel.
+    Levee(LeveeSpec),
+    /// A lobe of what a flood carried through a bank of a channel.
+    Splay(SplaySpec),
 }
 
 impl FeatureKind {
