@@ -18,6 +18,7 @@ pub mod frame;
 pub mod free_clinoform;
 pub mod horizon;
 pub mod join;
+pub mod junction;
 pub mod lag;
 pub mod levee;
 pub mod lobe;

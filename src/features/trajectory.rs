@@ -187,7 +187,7 @@ impl Trajectory {
     }
 
     /// From position, velocity and acceleration at increasing parameters.
-    fn from_motion(
+    pub(super) fn from_motion(
         parameters: &[f64],
         motion: &dyn Fn(f64) -> [DVec2; 3],
     ) -> Result<Self, TrajectoryError> {
@@ -319,6 +319,21 @@ impl Trajectory {
         };
         let places = self.places.iter().map(beside).collect::<Result<_, _>>()?;
         Ok(Self { places })
+    }
+
+    /// This line and then another one, which starts where this one ends, in the same direction.
+    pub(super) fn followed_by(mut self, next: &Self) -> Self {
+        let Some(last) = self.places.pop() else {
+            return next.clone();
+        };
+        // Directions go on: whole turns are none.
+        let turns = ((last.direction - next.places[0].direction) / TAU).round() * TAU;
+        self.places.extend(next.places.iter().map(|place| Place {
+            s: last.s + place.s,
+            direction: place.direction + turns,
+            ..*place
+        }));
+        self
     }
 
     /// Arc lengths of the sections: both ends, and wherever the direction has turned by the limit

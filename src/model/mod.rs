@@ -65,10 +65,12 @@ pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
 pub use kinds::lobe::{LobePlace, LobeSpec};
 pub use kinds::lobes::LobesSpec;
+pub use kinds::levee::LeveeSpec;
 pub use kinds::made::Bound;
 pub use kinds::placed::Placed;
 pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
 pub use kinds::scour::{Place as ScourPlace, ScourSpec, Way as ScourWay};
+pub use kinds::splay::SplaySpec;
 pub use nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 pub use kinds::sheet::SheetSpec;
 pub use place::{Note, Place};
@@ -85,6 +87,11 @@ pub use values::distribution::{
 };
 pub use values::ends::Ends;
 pub use values::lobe::LobeShape;
+pub use values::bank::Side;
+pub use values::distribution::{
+    Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
+};
+pub use values::junction::Joins;
 pub use values::profile::Profile;
 pub use values::property::{Graded, PropertySpec};
 pub use values::quantity::Quantity;

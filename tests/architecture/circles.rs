@@ -29,9 +29,11 @@ const KNOWN: &[&[&str]] = &[
         "model/kinds/ellipsoid.rs",
         "model/kinds/horizon.rs",
         "model/kinds/lag.rs",
+        "model/kinds/levee.rs",
         "model/kinds/mod.rs",
         "model/kinds/point_bars.rs",
         "model/kinds/sheet.rs",
+        "model/kinds/splay.rs",
     ],
     &[
         "model/realisation.rs",

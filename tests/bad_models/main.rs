@@ -12,6 +12,7 @@
 mod bodies;
 mod channels;
 mod clinoforms;
+mod companions;
 mod ellipsoids;
 mod files;
 mod lags;

@@ -12,12 +12,16 @@ use crate::features::body::Body;
 use crate::features::channel::{ChannelDesign, Origin};
 use crate::features::profile::Profile as Along;
 use crate::features::reach::Reach;
+use crate::model::checker::Reported;
 use crate::model::domain::Domain;
+use crate::model::draft::Draft;
 use crate::model::draws::{Draws, Reason, diagonal};
+use crate::model::interior::Interior;
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::references::Reference;
 use crate::model::tree::{NodeId, quoted};
+use crate::model::values::junction::{Joining, Joins, JoinsFile};
 use crate::model::values::limits::{ANY, ASYMMETRY, BANK_ANGLE, POSITIVE};
 use crate::model::values::profile::Profile;
 use crate::model::values::trajectory::{self, TrajectorySpec};
@@ -53,6 +57,8 @@ pub struct ChannelSpec {
     pub origin: SectionOrigin,
     /// The way that the channel takes.
     pub trajectory: TrajectorySpec,
+    /// Where it joins the channel that it goes along.
+    pub joins: Option<Joins>,
     /// A new section is set where the direction has turned by more than this, degrees.
     pub angle_limit_deg: f64,
     /// How far the thalweg and the rims may lie from where they belong, as a fraction of the width.
@@ -97,6 +103,9 @@ pub(crate) struct ChannelFile {
     /// The way that the channel takes, in plan.
     #[schemars(schema_with = "trajectory::schema")]
     pub(crate) trajectory: Field<Any>,
+    /// Where and how it joins the channel that it goes `along`: a tributary, whose trajectory leads on to that place; { at, angle_deg, side }.
+    #[schemars(with = "Option<JoinsFile>")]
+    pub(crate) joins: Option<Field<Any>>,
     /// A new section is set where the direction has turned by more than this, in degrees; 15 if left out.
     #[schemars(range(min = 0.1, max = 90))]
     pub(crate) angle_limit_deg: Option<Field<f64>>,
@@ -113,7 +122,10 @@ impl Kind for ChannelSpec {
     const NATURE: Nature = Nature {
         name: "channel",
         copies: Copies::Any,
-        within: Within::Anything,
+        within: Within::AnythingOrAlong {
+            kind: "channel",
+            remedy: "name the feature of kind = \"channel\" that the tributary joins",
+        },
         children: Children::Any,
         taking: Taking::ByRules,
         volumes: Volumes::One,
@@ -160,6 +172,7 @@ impl Kind for ChannelSpec {
             keys.checker
                 .note_far_trajectory(*node, trajectory, name, domain);
         }
+        let joins = keys.junction(file.joins);
         let angle = keys.number_in(
             file.angle_limit_deg,
             DEFAULT_ANGLE_LIMIT_DEG,
@@ -182,6 +195,7 @@ impl Kind for ChannelSpec {
             top: plain(top.ok()?),
             origin: origin?,
             trajectory: trajectory?.1,
+            joins: joins.ok()?,
             angle_limit_deg: angle?,
             tolerance_fraction: tolerance?,
         })
@@ -194,16 +208,24 @@ impl Kind for ChannelSpec {
         let asymmetry = draws.profile(&self.asymmetry, "asymmetry")?;
         let left_angle = draws.angle(self.left_angle_deg.as_ref(), "left_angle_deg")?;
         let right_angle = draws.angle(self.right_angle_deg.as_ref(), "right_angle_deg")?;
+        let joining = match &self.joins {
+            Some(joins) => Some(Joining::draw(joins, site.reach()?, draws)?),
+            None => None,
+        };
         let deepest = depth.range().1;
-        let top = match &self.top {
-            Some(top) => draws.profile(top, "top")?,
+        let top = match (&self.top, &joining) {
+            (Some(top), _) => draws.profile(top, "top")?,
+            (None, Some(joining)) => Along::Constant(joining.top(depth.at(1.0))),
             // What conforms to a surface is built anywhere.
-            None if site.warp.is_some() => Along::Constant(domain.z[0]),
-            None => any_top(deepest, domain, draws)?,
+            (None, None) if site.warp.is_some() => Along::Constant(domain.z[0]),
+            (None, None) => any_top(deepest, domain, draws)?,
         };
         let rims = top.range().1;
         let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
-        let trajectory = trajectory::trajectory(&self.trajectory, site, overshoot, draws)?;
+        let mut trajectory = trajectory::trajectory(&self.trajectory, site, overshoot, draws)?;
+        if let Some(joining) = &joining {
+            trajectory = joining.way(&trajectory, width.at(1.0))?;
+        }
         let design = ChannelDesign {
             width,
             depth,
@@ -221,7 +243,15 @@ impl Kind for ChannelSpec {
         let trough = design
             .build(&trajectory)
             .map_err(|error| (error.reason(), error.to_string()))?;
-        let reach = Reach::new(design, Arc::new(trajectory), &trough);
+        let mut mouth = 1.0;
+        if let (Some(joining), Some((name, trunk))) = (&joining, site.host)
+            && let Some(trunk) = trunk.parts.first()
+        {
+            let inside = Interior::of(&trunk.body)
+                .map_err(|error| ("no trunk", format!("it cannot join {name}: {error}")))?;
+            mouth = joining.mouth(&trough, &trajectory, &inside, name)?;
+        }
+        let reach = Reach::new(design, Arc::new(trajectory), &trough).with_mouth(mouth);
         Ok(Made {
             frame: Frame::Along(Arc::new(reach)),
             ..Made::body(Body::Trough(trough), draws.taken()).at_level(rims - PROUD * deepest)
@@ -276,6 +306,34 @@ fn any_top(deepest: f64, domain: &Domain, draws: &mut Draws<'_>) -> Result<Along
 }
 
 impl Keys<'_, '_> {
+    /// What goes along a channel joins it, and nothing else does.
+    fn junction(&self, field: Option<Field<Any>>) -> Result<Option<Joins>, Reported> {
+        let Draft {
+            name, node, along, ..
+        } = self.draft;
+        match (field, along) {
+            (None, None) => Ok(None),
+            (None, Some((at, trunk))) => {
+                let message = format!("{name} goes along {}, but does not join it", quoted(trunk));
+                let remedy = "add where: joins = { at = 0.6, angle_deg = 60, side = \"left\" }; or leave `along` out";
+                self.checker.reader.wrong(*at, message, remedy);
+                Err(Reported)
+            }
+            (Some(field), along) => {
+                let (at, Any) = field.good().ok_or(Reported)?;
+                if along.is_none() && !self.draft.wrong_along() {
+                    self.checker.reader.missing(
+                        *node,
+                        name,
+                        "along",
+                        "along = \"the-trunk\", the channel that it joins",
+                    );
+                }
+                self.checker.joins(at, name).map(Some).ok_or(Reported)
+            }
+        }
+    }
+
     fn section_origin(&self, node: NodeId, word: &str) -> Option<SectionOrigin> {
         match word {
             "thalweg" => Some(SectionOrigin::Thalweg),

@@ -29,6 +29,8 @@ pub(crate) struct Site<'a> {
     pub(crate) is_child: bool,
     /// What it is placed by: the frame of its parent, or of what it goes along, or that of the domain.
     pub(crate) frame: &'a Frame,
+    /// What it lies in or goes along, with its name.
+    pub(crate) host: Option<(&'a str, &'a Made)>,
     /// What was made of all that it refers to.
     pub(crate) others: &'a [(&'a Reference, &'a Made)],
     /// What bounds its unit above, for kinds that ask for it.

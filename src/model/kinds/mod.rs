@@ -15,12 +15,14 @@ pub(crate) mod keys;
 pub(crate) mod lag;
 pub(crate) mod lobe;
 pub(crate) mod lobes;
+pub(crate) mod levee;
 pub(crate) mod made;
 pub(crate) mod placed;
 pub(crate) mod point_bars;
 pub(crate) mod scour;
 pub(crate) mod sheet;
 mod unit;
+pub(crate) mod splay;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -43,6 +45,10 @@ use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
 use scour::ScourSpec;
 use sheet::SheetSpec;
+use levee::LeveeSpec;
+use made::{Base, Bound, Made, Outcome, Site, VolumeName};
+use point_bars::PointBarsSpec;
+use splay::SplaySpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -230,6 +236,10 @@ kinds! {
     Sheet(SheetSpec),
     /// A closed body from control nets of one's own.
     Body(BodySpec),
+    /// Wedges on the banks of a channel.
+    Levee(LeveeSpec),
+    /// A lobe of what a flood carried through a bank of a channel.
+    Splay(SplaySpec),
 }
 
 impl FeatureKind {

@@ -58,7 +58,8 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
         let make = |at: usize| {
             let one = &due[at];
             let host = one.along.or(one.parent);
-            let host = host.and_then(|host| built[host].as_ref());
+            let host =
+                host.and_then(|host| Some((due[host].name.as_str(), &built[host].as_ref()?.made)));
             let refers = model.features[one.feature].kind.refers();
             let of = |other: Option<usize>| Some(&built[other?].as_ref()?.made);
             let others: Vec<_> = refers
@@ -71,7 +72,8 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
                 interior: one.parent.and_then(|parent| interiors.get(&parent)),
                 surface: list.surface(one.feature),
                 is_child: one.parent.is_some(),
-                frame: host.map_or(&domain, |host| &host.made.frame),
+                frame: host.map_or(&domain, |host| &host.1.frame),
+                host,
                 others: &others,
                 top: one.top.as_ref(),
                 nudge: one.nudge,

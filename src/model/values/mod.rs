@@ -1,9 +1,11 @@
 //! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
 
 pub(crate) mod conform;
+pub(crate) mod bank;
 pub(crate) mod distribution;
 pub(crate) mod ends;
 pub(crate) mod facies;
+pub(crate) mod junction;
 pub(crate) mod limits;
 pub(crate) mod lobe;
 pub(crate) mod nets;
