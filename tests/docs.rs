@@ -72,7 +72,7 @@ fn kind_of(value: &Value) -> String {
     if let Some(reference) = value.get("$ref").and_then(Value::as_str) {
         return match reference.rsplit('/').next().unwrap() {
             "Quantity" => "quantity".to_owned(),
-            "Profile" => "profile".to_owned(),
+            "Profile" | "BentProfile" => "profile".to_owned(),
             "Selector" => "word or list".to_owned(),
             "Surface" => "surface".to_owned(),
             _ => "table".to_owned(),
@@ -169,6 +169,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
     match place {
         "a belt" => defined("Belt"),
         "a drape" => defined("Drape"),
+        "a section" => defined("Section"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

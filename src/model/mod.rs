@@ -56,7 +56,10 @@ pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
 pub use kinds::made::Bound;
+pub use kinds::meander_belt::MeanderBeltSpec;
+pub use kinds::plug::{PlugPlace, PlugSpec};
 pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
+pub use kinds::trend::{TrendBetween, TrendSpec};
 pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};
 pub use schema::schema;
@@ -64,6 +67,7 @@ pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{Feature, Model};
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};
+pub use values::bent::BentProfile;
 pub use values::distribution::{
     Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
 };

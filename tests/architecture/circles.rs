@@ -27,8 +27,11 @@ const KNOWN: &[&[&str]] = &[
         "model/kinds/ellipsoid.rs",
         "model/kinds/horizon.rs",
         "model/kinds/lag.rs",
+        "model/kinds/meander_belt.rs",
         "model/kinds/mod.rs",
+        "model/kinds/plug.rs",
         "model/kinds/point_bars.rs",
+        "model/kinds/trend.rs",
     ],
     &[
         "model/realisation.rs",

@@ -13,9 +13,13 @@ mod channels;
 mod ellipsoids;
 mod files;
 mod lags;
+mod meander_belts;
 mod overrides;
+mod plugs;
 mod point_bars;
+mod sections;
 mod shorefaces;
+mod trends;
 
 use clinothem::model::{Defects, Format, Model, Source};
 

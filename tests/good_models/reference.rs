@@ -27,7 +27,16 @@ fn the_examples_of_the_reference_are_good() {
     }
     assert_eq!(
         kinds,
-        ["ellipsoid", "horizon", "clinoforms", "lag", "point-bars"]
+        [
+            "meander-belt",
+            "ellipsoid",
+            "horizon",
+            "clinoforms",
+            "lag",
+            "plug",
+            "point-bars",
+            "trend"
+        ]
     );
     // Lines that stand for themselves are put into the whole example, one at a time.
     let mut lines = 0;
@@ -37,6 +46,7 @@ fn the_examples_of_the_reference_are_good() {
             let text = match key {
                 "removes" | "removed_by" => whole.replace("count = 5", line),
                 "width" => whole.replace("width = 80", line),
+                "section" => whole.replace("width = 80", &format!("width = 80\n{line}")),
                 "trajectory" if !whole.contains(line) => whole.replace(
                     "trajectory = { kind = \"line\", from = [0, 300], to = [1000, 600] }",
                     line,

@@ -34,7 +34,8 @@ impl Site<'_> {
         match self.frame {
             Frame::Along(reach) => Ok(reach),
             Frame::None | Frame::Unit(_) => {
-                Err(("no channel", "its parent is no channel".to_owned()))
+                let message = "its parent is no channel with a floor and a top between rims";
+                Err(("no channel", message.to_owned()))
             }
         }
     }

@@ -12,7 +12,10 @@ pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
 pub(crate) mod made;
+pub(crate) mod meander_belt;
+pub(crate) mod plug;
 pub(crate) mod point_bars;
+pub(crate) mod trend;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -27,7 +30,10 @@ use horizon::HorizonSpec;
 use keys::Keys;
 use lag::LagSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
+use meander_belt::MeanderBeltSpec;
+use plug::PlugSpec;
 use point_bars::PointBarsSpec;
+use trend::TrendSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -174,14 +180,20 @@ kinds! {
     Channel(ChannelSpec),
     /// A concretion or nodule.
     Ellipsoid(EllipsoidSpec),
+    /// A channel that migrates.
+    MeanderBelt(MeanderBeltSpec),
     /// A surface through the domain, with a new unit above it.
     Horizon(HorizonSpec),
     /// Clinoforms that divide a horizon's unit.
     Clinoforms(ClinoformsSpec),
     /// The lowest part of a channel's fill.
     Lag(LagSpec),
+    /// What fills an abandoned channel.
+    Plug(PlugSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
+    /// A channel or a unit in layers.
+    Trend(TrendSpec),
 }
 
 impl FeatureKind {

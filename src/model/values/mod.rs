@@ -1,10 +1,12 @@
 //! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
 
+pub(crate) mod bent;
 pub(crate) mod distribution;
 pub(crate) mod facies;
 pub(crate) mod limits;
 pub(crate) mod profile;
 pub(crate) mod quantity;
+pub(crate) mod section;
 pub(crate) mod selector;
 pub(crate) mod surface;
 pub(crate) mod trajectory;
