@@ -73,7 +73,7 @@ fn kind_of(value: &Value) -> String {
         return match reference.rsplit('/').next().unwrap() {
             "Quantity" => "quantity".to_owned(),
             "Ends" => "one or two quantities".to_owned(),
-            "Profile" => "profile".to_owned(),
+            "Profile" | "BentProfile" => "profile".to_owned(),
             "Selector" => "word or list".to_owned(),
             "Surface" => "surface".to_owned(),
             _ => "table".to_owned(),
@@ -183,6 +183,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         "a drape" => defined("Drape"),
         "a join" => defined("Join"),
         "a net" => defined("Net"),
+        "a section" => defined("Section"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

@@ -346,3 +346,19 @@ fn the_quickstart_is_what_its_rules_say() {
     let built = Built::new("quickstart/quickstart");
     built.assert_rule(|inside| oldest_first(inside, |_, _| true));
 }
+
+#[test]
+fn what_lies_in_channels_is_proven_with_everything_that_the_kernel_can_say_of_it() {
+    // Long, meandering faces: of these the kernel's own lines miss most passages.
+    let built = Built::new("plugs/plugs");
+    let oxbow = built.size("meander/oxbow");
+    assert!(oxbow > 0.0 && oxbow < built.size("meander"));
+    assert_eq!(built.pieces("meander/lag"), 1);
+    let built = Built::new("fig08a-point-bars/fig08a-point-bars");
+    for bar in 2..=4 {
+        for package in 1..=4 {
+            let name = format!("channel/bar-{bar}/accretion-{package}");
+            assert_eq!(built.pieces(&name), 1, "{name}");
+        }
+    }
+}

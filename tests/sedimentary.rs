@@ -36,6 +36,7 @@ fn design(tolerance: f64) -> ChannelDesign {
     ChannelDesign {
         width: Profile::Constant(50.0),
         depth: Profile::Constant(4.4),
+        own: None,
         asymmetry: Profile::Constant(0.0),
         left_angle: None,
         right_angle: None,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3Swizzles};
 
 use super::ellipsoid::Ellipsoid;
+use super::fan;
 pub use super::nudge::Nudge;
 use super::shell::{Shell, ShellError};
 use super::side::{Side, points_bounds};
@@ -201,8 +202,23 @@ impl Trough {
     }
 
     /// All sheets of the closed shell.
+    ///
+    /// A base with creases is as many sheets, and each end a fan of them: sheets are smooth.
     pub fn sheets(&self) -> Result<Vec<(Role, Surface)>, SurfaceError> {
         let (first, last) = self.base.knots_v().domain();
+        let parts = self.base.smooth_parts_u();
+        if parts.len() > 1 {
+            let mut sheets = Vec::new();
+            for (role, v) in [(Role::Start, first), (Role::End, last)] {
+                let sides = parts.iter().chain([&self.top]).map(|one| one.isocurve_v(v));
+                let sides: Vec<Curve> = sides.collect();
+                let face = fan::face(&sides).transpose()?.unwrap_or_default();
+                sheets.extend(face.into_iter().map(|sheet| (role, sheet)));
+            }
+            let parts = parts.into_iter().map(|part| (Role::Base, part));
+            sheets.extend(parts.chain([(Role::Top, self.top.clone())]));
+            return Ok(sheets);
+        }
         let end = |v: f64| Surface::ruled(&self.base.isocurve_v(v), &self.top.isocurve_v(v));
         Ok(vec![
             (Role::Base, self.base.clone()),
@@ -302,7 +318,15 @@ impl Trough {
         points.extend_from_slice(net);
         points.extend((1..=p).flat_map(|step| beyond(nu - 1, nu - 2, step)));
         let across = KnotVector::new(p, raised)?;
-        let base = Surface::new(across, self.base.knots_v().clone(), points)?;
+        let along = self.base.knots_v().clone();
+        let base = if self.base.is_rational() {
+            let weights = self.base.weights();
+            let end = |rim: usize| weights[rim * nv..(rim + 1) * nv].repeat(p);
+            let all = [end(0), weights.to_vec(), end(nu - 1)].concat();
+            Surface::rational(across, along, points, all)?
+        } else {
+            Surface::new(across, along, points)?
+        };
         Ok(Self::new(base, self.sections.clone())?)
     }
 

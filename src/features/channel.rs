@@ -1,16 +1,19 @@
 //! Channels: a cubic base carried along a trajectory, closed by a ruled top (\[J19\] Fig. 4a, 4c, 5).
 //!
-//! The base has degree 3 across and 3 along (1 along a straight, constant channel); seven control
+//! Of the default section the base has degree 3 across and 3 along (1 along a straight, constant channel); seven control
 //! points across, the middle three collinear, so that the surface passes exactly through the thalweg.
+
+use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::body::Trough;
-use super::extrusion::{self, ExtrusionError, Limits, PlacedSection};
+use super::extrusion::{self, Across, ExtrusionError, Guides, Limits, PlacedSection};
+use super::own_section::OwnSection;
 use super::profile::Profile;
-use super::section::{ChannelSection, SectionError};
+use super::section::{CONTROL_POINTS, ChannelSection, SectionError};
 use super::trajectory::Trajectory;
-use crate::nurbs::SurfaceError;
+use crate::nurbs::{KnotError, KnotVector, SurfaceError};
 
 /// Where the trajectory crosses the section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +29,10 @@ pub enum Origin {
 pub struct ChannelDesign {
     /// Width between the rims (m).
     pub width: Profile,
-    /// Depth of the thalweg below the rims (m).
+    /// Depth of the thalweg below the rims (m); of a section of one's own what 1 is along its y.
     pub depth: Profile,
+    /// The section's shape, if it is one's own: asymmetry and side angles count for nothing then.
+    pub own: Option<Arc<OwnSection>>,
     /// Thalweg's offset to the right, as a fraction of the width.
     pub asymmetry: Profile,
     /// Side angle of the left bank (rad).
@@ -50,6 +55,12 @@ pub enum ChannelError {
     /// The base cannot be carried along the trajectory.
     #[error(transparent)]
     Extrusion(#[from] ExtrusionError<SectionError>),
+    /// The section has no knots.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// A closed section makes no shell.
+    #[error("the channel's skin does not close: {0}")]
+    Conduit(String),
     /// The top cannot be ruled.
     #[error("the channel's top cannot be ruled between its rims: {0}")]
     Top(#[from] SurfaceError),
@@ -62,7 +73,9 @@ impl ChannelError {
             Self::Extrusion(ExtrusionError::Section(..)) => "impossible section",
             Self::Extrusion(ExtrusionError::Fold { .. }) => "bend tighter than the half-width",
             Self::Extrusion(ExtrusionError::Neck { .. }) => "meander neck narrower than the width",
-            Self::Extrusion(_) | Self::Top(_) => "surface out of tolerance",
+            Self::Extrusion(_) | Self::Top(_) | Self::Knots(_) | Self::Conduit(_) => {
+                "surface out of tolerance"
+            }
         }
     }
 }
@@ -74,13 +87,61 @@ impl ChannelDesign {
             angle: self.angle_limit,
             constant: self.is_constant(),
         };
-        let (base, sections) =
-            extrusion::extrude(trajectory, 3, limits, &|fraction| self.place(fraction))?;
+        let (base, sections) = extrusion::extrude(
+            trajectory,
+            &self.across()?,
+            limits,
+            self.guides(),
+            &|fraction| self.place(fraction),
+        )?;
         Ok(Trough::new(base, sections)?)
     }
 
-    /// The section at a fraction of the length.
-    pub fn section(&self, fraction: f64) -> ChannelSection {
+    /// What its section is across.
+    pub fn across(&self) -> Result<Across, KnotError> {
+        Ok(match &self.own {
+            None => KnotVector::uniform(3, CONTROL_POINTS)?.into(),
+            Some(own) => Across {
+                knots: own.curve().knots().clone(),
+                weights: own
+                    .curve()
+                    .is_rational()
+                    .then(|| own.curve().weights().to_vec()),
+            },
+        })
+    }
+
+    fn guides(&self) -> Guides {
+        match self.own {
+            None => Guides::Outline,
+            Some(_) => Guides::All,
+        }
+    }
+
+    /// The control points of the section at a fraction of the length: x to the right from the middle between the rims, y up
+    /// from them.
+    pub fn points(&self, fraction: f64) -> Result<Vec<DVec2>, SectionError> {
+        let section = self.section(fraction);
+        match &self.own {
+            None => section.control_points().map(|points| points.to_vec()),
+            Some(own) => {
+                section.check_size()?;
+                Ok(own.points(section.width, section.depth))
+            }
+        }
+    }
+
+    /// The place of the thalweg at a fraction of the length: x to the right from the middle between the rims, y up from them.
+    pub fn thalweg(&self, fraction: f64) -> DVec2 {
+        let size = DVec2::new(self.width.at(fraction), self.depth.at(fraction));
+        match &self.own {
+            None => DVec2::new(self.asymmetry.at(fraction), -1.0) * size,
+            Some(own) => own.deepest() * size,
+        }
+    }
+
+    /// The default section at a fraction of the length.
+    fn section(&self, fraction: f64) -> ChannelSection {
         let at = |profile: &Profile| profile.at(fraction);
         ChannelSection {
             width: at(&self.width),
@@ -92,17 +153,12 @@ impl ChannelDesign {
     }
 
     /// The section at a fraction of the length, placed: x to the right of the trajectory, y = elevation.
-    fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
-        let section = self.section(fraction);
+    pub(super) fn place(&self, fraction: f64) -> Result<PlacedSection, SectionError> {
         let shift = self.offset(fraction);
-        let points = section
-            .control_points()?
-            .iter()
-            .map(|point| *point + shift)
-            .collect();
+        let points = self.points(fraction)?;
         Ok(PlacedSection {
-            points,
-            tolerance: self.tolerance * section.width,
+            points: points.into_iter().map(|point| point + shift).collect(),
+            tolerance: self.tolerance * self.width.at(fraction),
         })
     }
 
@@ -110,7 +166,7 @@ impl ChannelDesign {
     pub(super) fn offset(&self, fraction: f64) -> DVec2 {
         let origin = match self.origin {
             Origin::TopCentre => 0.0,
-            Origin::Thalweg => self.asymmetry.at(fraction) * self.width.at(fraction),
+            Origin::Thalweg => self.thalweg(fraction).x,
         };
         DVec2::new(-origin, self.top.at(fraction))
     }

@@ -12,6 +12,7 @@ fn design(width: f64, depth: f64) -> ChannelDesign {
     ChannelDesign {
         width: Profile::Constant(width),
         depth: Profile::Constant(depth),
+        own: None,
         asymmetry: Profile::Constant(0.0),
         left_angle: None,
         right_angle: None,

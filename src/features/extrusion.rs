@@ -9,7 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::trajectory::{Place, Trajectory};
-use crate::nurbs::{Curve, KnotVector, Surface, interpolate};
+use crate::nurbs::{Curve, CurveError, KnotVector, Surface, SurfaceError, interpolate};
 
 /// Rounds of refinement; each halves the spans that are out of tolerance.
 const ROUNDS: usize = 12;
@@ -97,9 +97,55 @@ pub struct Limits {
     pub constant: bool,
 }
 
+/// What a template is across: its knots, and its weights if it is rational. Both are the same all along.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Across {
+    /// The knots.
+    pub knots: KnotVector,
+    /// A weight for each control point.
+    pub weights: Option<Vec<f64>>,
+}
+
+impl From<KnotVector> for Across {
+    fn from(knots: KnotVector) -> Self {
+        Self {
+            knots,
+            weights: None,
+        }
+    }
+}
+
+impl Across {
+    /// The template's own curve through section coordinates, z = 0.
+    pub fn curve(&self, points: &[DVec2]) -> Result<Curve, CurveError> {
+        let points = points.iter().map(|p| p.extend(0.0)).collect();
+        match &self.weights {
+            None => Curve::new(self.knots.clone(), points),
+            Some(weights) => Curve::rational(self.knots.clone(), points, weights.clone()),
+        }
+    }
+
+    /// The surface of rows of control points along a trajectory, one for each of the template's.
+    pub(super) fn surface(
+        &self,
+        along: &KnotVector,
+        net: Vec<DVec3>,
+    ) -> Result<Surface, SurfaceError> {
+        let knots = self.knots.clone();
+        match &self.weights {
+            None => Surface::new(knots, along.clone(), net),
+            Some(weights) => {
+                let each = weights.iter();
+                let weights = each.flat_map(|w| std::iter::repeat_n(*w, along.count()));
+                Surface::rational(knots, along.clone(), net, weights.collect())
+            }
+        }
+    }
+}
+
 /// Which rows of control points are compared with the template between sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Guides {
+pub enum Guides {
     /// The two outer ones and the middle one: rims and thalweg.
     Outline,
     /// Every one.
@@ -120,18 +166,18 @@ pub(super) struct Carried {
 /// Carries a template along a trajectory.
 ///
 /// `section` gives the template at a fraction 0..1 of the length; every call must return the same
-/// number of control points. `degree` is the degree across. Returns the surface and the v of its
+/// number of control points. `across` has the knots across. Returns the surface and the v of its
 /// sections: there, and only there, the surface is exactly the template, so flat and upright.
 pub fn extrude<E: std::error::Error>(
     trajectory: &Trajectory,
-    degree: usize,
+    across: &Across,
     limits: Limits,
+    guides: Guides,
     section: &dyn Fn(f64) -> Result<PlacedSection, E>,
 ) -> Result<(Surface, Vec<f64>), ExtrusionError<E>> {
-    let carried = carry(trajectory, limits, &[], Guides::Outline, section)?;
-    let across = KnotVector::uniform(degree, carried.rows.len())
-        .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
-    let surface = Surface::new(across, carried.along, carried.rows.concat())
+    let carried = carry(trajectory, limits, &[], guides, section)?;
+    let surface = across
+        .surface(&carried.along, carried.rows.concat())
         .map_err(|error| ExtrusionError::Interpolation(error.to_string()))?;
     Ok((surface, carried.sections))
 }

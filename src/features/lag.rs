@@ -18,7 +18,7 @@ use super::body::Role;
 use super::extrusion::ExtrusionError;
 use super::profile::Profile;
 use super::reach::{Part, Reach, Station};
-use super::section::{CONTROL_POINTS, SectionError};
+use super::section::SectionError;
 use super::shell::{Shell, ShellError, Tube};
 use super::trajectory::TrajectoryError;
 use crate::nurbs::{KnotError, KnotVector};
@@ -100,10 +100,7 @@ pub fn section(base: &[DVec2], depth: f64, thickness: f64, sag: f64) -> Vec<DVec
 impl LagDesign {
     /// The lag of a channel. Its top is [`Role::Top`], all the rest is hidden.
     pub fn build(&self, reach: &Reach) -> Result<Shell, LagError> {
-        let across = [
-            KnotVector::uniform(3, CONTROL_POINTS)?,
-            KnotVector::uniform(1, 2)?,
-        ];
+        let across = [reach.across()?, KnotVector::uniform(1, 2)?.into()];
         let template = |station: &Station| self.sheets(reach, station);
         let sheets = if self.thickness.is_constant() && self.sag.is_constant() {
             reach.sheets_at_sections(&across, &template)

@@ -26,7 +26,7 @@ use super::reach::{Part, Reach, Station};
 use super::section::SectionError;
 use super::shell::{Shell, ShellError, Tube};
 use super::trajectory::TrajectoryError;
-use crate::nurbs::{Curve, CurveError, KnotError, KnotVector};
+use crate::nurbs::{CurveError, KnotError, KnotVector};
 
 /// How far outside of the rim the crest stands, and inside of it the inner side passes the level of the top, in the
 /// channel's widths.
@@ -246,8 +246,8 @@ impl LeveeDesign {
         }
         let of_reach = Part::new(reach, ends, &[])?;
         let across = [
-            KnotVector::uniform(self.taper, self.taper + 1)?,
-            KnotVector::uniform(1, 2)?,
+            KnotVector::uniform(self.taper, self.taper + 1)?.into(),
+            KnotVector::uniform(1, 2)?.into(),
         ];
         let template = |station: &Station| Ok(self.size(station, part)?.sheets(station));
         let sheets = reach
@@ -357,8 +357,7 @@ impl Size {
     fn check_root(&self, reach: &Reach, station: &Station) -> Result<(), LeveeError> {
         let root = self.root();
         let points = reach.base(station.fraction)?;
-        let lifted = points.iter().map(|p| p.extend(0.0)).collect();
-        let base = Curve::new(KnotVector::uniform(3, points.len())?, lifted)?;
+        let base = reach.across()?.curve(&points)?;
         let x = self.side * (0.5 * self.channel + root.x);
         // The lowest place of the base there: banks may overhang.
         let steps: Vec<DVec2> = (0..=ROOT_STEPS)

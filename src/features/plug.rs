@@ -10,10 +10,10 @@ use super::bends::Bend;
 use super::body::{Role, Trough, TroughError};
 use super::extrusion::ExtrusionError;
 use super::reach::{Part, Reach, Station};
-use super::section::{CONTROL_POINTS, SectionError};
+use super::section::SectionError;
 use super::shell::{Shell, ShellError, Tube};
 use super::trajectory::TrajectoryError;
-use crate::nurbs::{KnotError, KnotVector};
+use crate::nurbs::KnotError;
 
 /// Deepest plug as a fraction of the channel's depth: one that reaches the floor would touch it along a line.
 pub const DEEPEST: f64 = 0.95;
@@ -92,7 +92,7 @@ impl PlugDesign {
             }
         };
         let part = Part::new(reach, ends, reach.sections())?;
-        let across = [KnotVector::uniform(3, CONTROL_POINTS)?];
+        let across = [reach.across()?];
         let template = |station: &Station| Ok([self.section(reach, station, bend)?]);
         let [base] = reach.sheets(&part, &across, &template).map_err(Box::new)?;
         let domain = base.knots_v().domain();

@@ -269,8 +269,8 @@ impl Sheet<'_> {
             Slope::Sigmoidal => 3,
         };
         let across = [
-            KnotVector::uniform(degree, degree + 1)?,
-            KnotVector::uniform(1, 2)?,
+            KnotVector::uniform(degree, degree + 1)?.into(),
+            KnotVector::uniform(1, 2)?.into(),
         ];
         let sheets = reach
             .sheets(&part, &across, &|station| self.section(station))

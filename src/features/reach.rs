@@ -9,10 +9,10 @@ use glam::{DVec2, DVec3};
 
 use super::body::Trough;
 use super::channel::ChannelDesign;
-use super::extrusion::{self, ExtrusionError, Guides, Limits, PlacedSection};
-use super::section::{CONTROL_POINTS, SectionError};
+use super::extrusion::{self, Across, ExtrusionError, Guides, Limits, PlacedSection};
+use super::section::SectionError;
 use super::trajectory::{Place, Trajectory, TrajectoryError};
-use crate::nurbs::{KnotVector, Surface, interpolate};
+use crate::nurbs::{KnotError, KnotVector, Surface, interpolate};
 
 /// A channel's trajectory with everything that its section is there.
 #[derive(Clone, Debug)]
@@ -154,7 +154,7 @@ impl Reach {
             place,
             fraction,
             width: self.design.width.at(fraction),
-            depth: self.design.depth.at(fraction),
+            depth: -self.design.thalweg(fraction).y,
             middle: self.design.offset(fraction),
             bend,
             before_mouth: (self.mouth < 1.0)
@@ -163,19 +163,24 @@ impl Reach {
     }
 
     /// The control points of the channel's base in section coordinates, at a fraction of its length.
-    pub fn base(&self, fraction: f64) -> Result<[DVec2; CONTROL_POINTS], SectionError> {
-        self.design.section(fraction).control_points()
+    pub fn base(&self, fraction: f64) -> Result<Vec<DVec2>, SectionError> {
+        self.design.points(fraction)
+    }
+
+    /// What the channel's base is across.
+    pub fn across(&self) -> Result<Across, KnotError> {
+        self.design.across()
     }
 
     /// Sheets of templates (control points in section coordinates, one list for each of the knot vectors across) at the
     /// channel's own sections: with its knots, and with its control points wherever a template has those of the base.
     pub fn sheets_at_sections<const N: usize, E: std::error::Error>(
         &self,
-        across: &[KnotVector; N],
+        across: &[Across; N],
         template: &Template<'_, N, E>,
     ) -> Result<[Surface; N], ExtrusionError<E>> {
         let mut rows: Vec<Vec<DVec3>> =
-            vec![Vec::new(); across.iter().map(KnotVector::count).sum()];
+            vec![Vec::new(); across.iter().map(|one| one.knots.count()).sum()];
         for &fraction in &self.sections {
             let station = self.station(fraction);
             let points = template(&station)
@@ -196,7 +201,7 @@ impl Reach {
     pub fn sheets<const N: usize, E: std::error::Error>(
         &self,
         part: &Part,
-        across: &[KnotVector; N],
+        across: &[Across; N],
         template: &Template<'_, N, E>,
     ) -> Result<[Surface; N], ExtrusionError<E>> {
         let own = |part_fraction: f64| self.station(part.fraction(part_fraction));
@@ -226,16 +231,16 @@ impl Reach {
 
 /// Surfaces of rows of control points, as many of them as each has across.
 fn surfaces<const N: usize, E: std::error::Error>(
-    across: &[KnotVector; N],
+    across: &[Across; N],
     along: &KnotVector,
     rows: Vec<Vec<DVec3>>,
 ) -> Result<[Surface; N], ExtrusionError<E>> {
     let wrong = |error: String| ExtrusionError::Interpolation(error);
     let mut rows = rows.into_iter();
     let mut made = Vec::with_capacity(N);
-    for knots in across {
-        let net = rows.by_ref().take(knots.count()).flatten().collect();
-        let surface = Surface::new(knots.clone(), along.clone(), net);
+    for one in across {
+        let net = rows.by_ref().take(one.knots.count()).flatten().collect();
+        let surface = one.surface(along, net);
         made.push(surface.map_err(|error| wrong(error.to_string()))?);
     }
     made.try_into()
@@ -257,6 +262,7 @@ pub(super) mod tests {
         ChannelDesign {
             width: Profile::Constant(50.0),
             depth: Profile::Constant(4.4),
+            own: None,
             asymmetry: Profile::Constant(0.0),
             left_angle: None,
             right_angle: None,
@@ -297,8 +303,8 @@ pub(super) mod tests {
         for origin in [Origin::Thalweg, Origin::TopCentre] {
             design.origin = origin;
             let (channel, reach) = along(design.clone(), meander());
-            let across = [channel.base().knots_u().clone()];
-            let template = |station: &Station| Ok([reach.base(station.fraction)?.to_vec()]);
+            let across = [channel.base().knots_u().clone().into()];
+            let template = |station: &Station| Ok([reach.base(station.fraction)?]);
             let [base] = reach
                 .sheets_at_sections::<1, SectionError>(&across, &template)
                 .unwrap();
@@ -331,7 +337,7 @@ pub(super) mod tests {
         let (_, reach) = along(design(), meander());
         let part = Part::new(&reach, [0.2, 0.6], &[0.3, 0.47]).unwrap();
         assert!((part.length() - 0.4 * reach.trajectory().length()).abs() < 1e-9);
-        let across = [KnotVector::uniform(1, 2).unwrap()];
+        let across = [KnotVector::uniform(1, 2).unwrap().into()];
         // A sheet that is exact at its sections alone.
         let template = |station: &Station| {
             let x = 3.0 * (40.0 * station.fraction).sin();

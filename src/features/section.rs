@@ -110,12 +110,18 @@ impl ChannelSection {
         ])
     }
 
-    fn check(&self) -> Result<(), SectionError> {
+    /// Width and depth must be lengths.
+    pub(super) fn check_size(&self) -> Result<(), SectionError> {
         for (name, value) in [("width", self.width), ("depth", self.depth)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(SectionError::NotPositive { name, value });
             }
         }
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), SectionError> {
+        self.check_size()?;
         // Written so that NaN fails too.
         if !(self.asymmetry.abs() <= 0.5 - LEAST_MARGIN) {
             return Err(SectionError::Asymmetry(self.asymmetry));

@@ -10,11 +10,12 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3Swizzles};
 
 use super::body::Role;
+use super::fan;
 use super::nudge::Nudge;
 use super::side::points_bounds;
 use crate::nurbs::enclosure::{Enclosure, EnclosureError};
 use crate::nurbs::{
-    ElevateError, ExtendError, KnotError, KnotVector, RefineError, Surface, SurfaceError,
+    Curve, ElevateError, ExtendError, KnotError, KnotVector, RefineError, Surface, SurfaceError,
 };
 
 /// Why sheets make no closed shell.
@@ -121,6 +122,12 @@ impl Tube {
     /// The tube closed by ruled sides and ends. Edges are the sheets' own control points (of degrees that differ across, the
     /// ends have degree-elevated copies, \[J19\] §2.5.1).
     pub fn close(&self) -> Result<Shell, ShellError> {
+        let sides = self.sides()?;
+        self.closed(&sides)
+    }
+
+    /// The ruled sheets between the borders at the first and at the last u.
+    fn sides(&self) -> Result<[Surface; 2], SurfaceError> {
         let [one, other] = &self.sheets;
         let ends = |knots: &KnotVector| {
             let (first, last) = knots.domain();
@@ -129,25 +136,40 @@ impl Tube {
         let [from, to] = ends(one.knots_u());
         let [other_from, other_to] = ends(other.knots_u());
         let side = |u: f64, v: f64| Surface::ruled(&one.isocurve_u(u), &other.isocurve_u(v));
-        let [start, end] = self.ends()?;
-        Shell::new(vec![
-            (self.roles[0], one.clone()),
-            (self.roles[1], other.clone()),
-            (self.sides[0], side(from, other_from)?),
-            (self.sides[1], side(to, other_to)?),
-            start,
-            end,
-        ])
+        Ok([side(from, other_from)?, side(to, other_to)?])
     }
 
     /// The same of two sheets that share their borders at the first and the last u already: without sides.
     pub fn close_at_rims(&self) -> Result<Shell, ShellError> {
-        let closed = [
-            (self.roles[0], self.sheets[0].clone()),
-            (self.roles[1], self.sheets[1].clone()),
-        ];
-        let [start, end] = self.ends()?;
-        Shell::new(closed.into_iter().chain([start, end]).collect())
+        self.closed(&[])
+    }
+
+    /// The shell with these sides. Sheets with creases are as many sheets, and the ends fans of them.
+    fn closed(&self, sides: &[Surface]) -> Result<Shell, ShellError> {
+        let [one, other] = [0, 1].map(|at| self.sheets[at].smooth_parts_u());
+        let has_creases = one.len() + other.len() > 2;
+        let ends = if has_creases {
+            let (first, last) = self.sheets[0].knots_v().domain();
+            let mut around: Vec<&Surface> = one.iter().collect();
+            around.extend(sides.get(1));
+            around.extend(other.iter().rev());
+            around.extend(sides.first());
+            let mut ends = Vec::new();
+            for (role, v) in [(Role::Start, first), (Role::End, last)] {
+                let end: Vec<Curve> = around.iter().map(|sheet| sheet.isocurve_v(v)).collect();
+                let face = fan::face(&end).transpose()?.unwrap_or_default();
+                ends.extend(face.into_iter().map(|sheet| (role, sheet)));
+            }
+            ends
+        } else {
+            self.ends()?.to_vec()
+        };
+        let mut sheets = Vec::new();
+        for (role, parts) in self.roles.into_iter().zip([one, other]) {
+            sheets.extend(parts.into_iter().map(|part| (role, part)));
+        }
+        sheets.extend(self.sides.into_iter().zip(sides.iter().cloned()));
+        Shell::new(sheets.into_iter().chain(ends).collect())
     }
 
     /// The ruled sheets at the first and the last v.

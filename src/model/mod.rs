@@ -73,6 +73,11 @@ pub use kinds::scour::{Place as ScourPlace, ScourSpec, Way as ScourWay};
 pub use kinds::splay::SplaySpec;
 pub use nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 pub use kinds::sheet::SheetSpec;
+pub use kinds::meander_belt::MeanderBeltSpec;
+pub use kinds::plug::{PlugPlace, PlugSpec};
+pub use kinds::point_bars::{BarShape, Drape, PointBarsSpec};
+pub use kinds::trend::{TrendBetween, TrendSpec};
+pub use nature::{Children, Copies, Nature, Taking, Volumes, Within};
 pub use place::{Note, Place};
 pub use references::{Host, Reference};
 pub use properties::Property;
@@ -82,6 +87,7 @@ pub use spec::{Feature, Model};
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};
 pub use values::conform::ConformSpec;
+pub use values::bent::BentProfile;
 pub use values::distribution::{
     Distribution, DistributionError, DrawError, LEAST_KEPT, MAX_REJECTIONS,
 };

@@ -17,6 +17,7 @@ mod bezier;
 pub(crate) mod blossom;
 mod bounds;
 mod closest;
+mod corners;
 mod curve;
 mod derive;
 mod elevate;

@@ -17,10 +17,14 @@ mod ellipsoids;
 mod files;
 mod lags;
 mod nets;
+mod meander_belts;
 mod overrides;
+mod plugs;
 mod point_bars;
 mod references;
+mod sections;
 mod shorefaces;
+mod trends;
 
 use clinothem::model::{Defects, Format, Model, Source};
 

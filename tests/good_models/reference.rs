@@ -28,12 +28,15 @@ fn the_examples_of_the_reference_are_good() {
     assert_eq!(
         kinds,
         [
+            "meander-belt",
             "ellipsoid",
             "horizon",
             "clinoforms",
             "clinoform",
             "lag",
+            "plug",
             "point-bars",
+            "trend",
             "sheet",
             "body"
         ]
@@ -47,6 +50,7 @@ fn the_examples_of_the_reference_are_good() {
                 "removes" | "removed_by" => whole.replace("count = 5", line),
                 "properties" => whole.replace("count = 5", line),
                 "width" => whole.replace("width = 80", line),
+                "section" => whole.replace("width = 80", &format!("width = 80\n{line}")),
                 "trajectory" if !whole.contains(line) => whole.replace(
                     "trajectory = { kind = \"line\", from = [0, 300], to = [1000, 600] }",
                     line,

@@ -9,7 +9,9 @@ use super::Kind;
 use super::keys::Keys;
 use super::made::{Frame, Made, Outcome, Site};
 use crate::features::body::Body;
-use crate::features::channel::{ChannelDesign, Origin};
+use crate::features::channel::{ChannelDesign, ChannelError, Origin};
+use crate::features::conduit;
+use crate::features::own_section::{Close, OwnSection};
 use crate::features::profile::Profile as Along;
 use crate::features::reach::Reach;
 use crate::model::checker::Reported;
@@ -21,9 +23,11 @@ use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Wit
 use crate::model::read::{Any, Field};
 use crate::model::references::Reference;
 use crate::model::tree::{NodeId, quoted};
+use crate::model::values::bent::BentProfile;
 use crate::model::values::junction::{Joining, Joins, JoinsFile};
 use crate::model::values::limits::{ANY, ASYMMETRY, BANK_ANGLE, POSITIVE};
 use crate::model::values::profile::Profile;
+use crate::model::values::section::SectionFile;
 use crate::model::values::trajectory::{self, TrajectorySpec};
 
 /// How far a trajectory without a length runs past the domain, as a fraction of the domain's diagonal;
@@ -46,7 +50,9 @@ pub struct ChannelSpec {
     /// Depth of the thalweg below the top.
     pub depth: Profile,
     /// Offset of the thalweg to the right of the centre, as a fraction of the width, in (−0.5, 0.5).
-    pub asymmetry: Profile,
+    pub asymmetry: BentProfile,
+    /// The section's shape, if it is one's own.
+    pub section: Option<Arc<OwnSection>>,
     /// Angle of the left bank (looking down the trajectory) below the horizontal, degrees; chosen by the section if absent.
     pub left_angle_deg: Option<Profile>,
     /// Angle of the right bank below the horizontal, degrees; chosen by the section if absent.
@@ -84,8 +90,8 @@ pub(crate) struct ChannelFile {
     /// Depth of the deepest point (the thalweg) below the top, in metres, above 0.
     #[schemars(with = "Profile")]
     pub(crate) depth: Field<Any>,
-    /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; 0 if left out.
-    #[schemars(with = "Option<Profile>")]
+    /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; { by_curvature = 0.2 } moves it towards the outer banks of bends; 0 if left out.
+    #[schemars(with = "Option<BentProfile>")]
     pub(crate) asymmetry: Option<Field<Any>>,
     /// Angle of the left bank (looking along the trajectory) below the horizontal at the rim, in degrees, between 0 and 180; chosen by the section if left out.
     #[schemars(with = "Option<Profile>")]
@@ -100,6 +106,9 @@ pub(crate) struct ChannelFile {
     #[schemars(schema_with = "section_origin")]
     #[serde(default)]
     pub(crate) origin: Option<Field<String>>,
+    /// A section of one's own, in place of the usual one with its asymmetry and bank angles: { points, degree, weights, knots, close, depth_is }.
+    #[schemars(with = "Option<SectionFile>")]
+    pub(crate) section: Option<Field<Any>>,
     /// The way that the channel takes, in plan.
     #[schemars(schema_with = "trajectory::schema")]
     pub(crate) trajectory: Field<Any>,
@@ -150,9 +159,17 @@ impl Kind for ChannelSpec {
         if let (Some((node, depth)), Some(domain)) = (&depth, keys.domain) {
             keys.check_depth(*node, depth, domain);
         }
-        let asymmetry = keys.optional_profile(file.asymmetry, "asymmetry", ASYMMETRY);
+        let asymmetry = keys.optional_bent_profile(file.asymmetry, "asymmetry", ASYMMETRY);
         let left = keys.optional_profile(file.left_angle_deg, "left_angle_deg", BANK_ANGLE);
         let right = keys.optional_profile(file.right_angle_deg, "right_angle_deg", BANK_ANGLE);
+        let section = keys.section(
+            file.section,
+            [
+                ("asymmetry", matches!(asymmetry, Ok(Some(_)))),
+                ("left_angle_deg", matches!(left, Ok(Some(_)))),
+                ("right_angle_deg", matches!(right, Ok(Some(_)))),
+            ],
+        );
         let top = keys.optional_profile(file.top, "top", ANY);
         if let (Ok(Some((node, top))), Some(domain)) = (&top, keys.domain) {
             keys.note_top(*node, top, domain);
@@ -189,7 +206,8 @@ impl Kind for ChannelSpec {
         Some(Self {
             width: plain(width)?,
             depth: plain(depth)?,
-            asymmetry: plain(asymmetry.ok()?).unwrap_or(Profile::from(0.0)),
+            asymmetry: asymmetry.ok()?.unwrap_or(BentProfile::from(0.0)),
+            section: section.ok()?,
             left_angle_deg: plain(left.ok()?),
             right_angle_deg: plain(right.ok()?),
             top: plain(top.ok()?),
@@ -205,7 +223,7 @@ impl Kind for ChannelSpec {
         let domain = site.domain;
         let width = draws.profile(&self.width, "width")?;
         let depth = draws.profile(&self.depth, "depth")?;
-        let asymmetry = draws.profile(&self.asymmetry, "asymmetry")?;
+        let asymmetry = self.asymmetry.draw(draws, "asymmetry")?;
         let left_angle = draws.angle(self.left_angle_deg.as_ref(), "left_angle_deg")?;
         let right_angle = draws.angle(self.right_angle_deg.as_ref(), "right_angle_deg")?;
         let joining = match &self.joins {
@@ -226,10 +244,12 @@ impl Kind for ChannelSpec {
         if let Some(joining) = &joining {
             trajectory = joining.way(&trajectory, width.at(1.0))?;
         }
+        let trajectory = Arc::new(trajectory);
         let design = ChannelDesign {
             width,
             depth,
-            asymmetry,
+            own: self.section.clone(),
+            asymmetry: asymmetry.along(&trajectory),
             left_angle,
             right_angle,
             top,
@@ -240,22 +260,39 @@ impl Kind for ChannelSpec {
             angle_limit: self.angle_limit_deg.to_radians(),
             tolerance: self.tolerance_fraction,
         };
-        let trough = design
-            .build(&trajectory)
-            .map_err(|error| (error.reason(), error.to_string()))?;
-        let mut mouth = 1.0;
-        if let (Some(joining), Some((name, trunk))) = (&joining, site.host)
-            && let Some(trunk) = trunk.parts.first()
-        {
-            let inside = Interior::of(&trunk.body)
-                .map_err(|error| ("no trunk", format!("it cannot join {name}: {error}")))?;
-            mouth = joining.mouth(&trough, &trajectory, &inside, name)?;
+        let refused = |error: ChannelError| (error.reason(), error.to_string());
+        let mut made = match &self.section {
+            Some(own) if own.close() == Close::Closed => {
+                let conduit = conduit::build(&design, own, &trajectory);
+                let conduit = conduit.map_err(|error| refused(error.into()))?;
+                // What lies in a channel lies on its floor or under its top: a tube has neither.
+                Made::body(Body::Shell(conduit), draws.taken())
+            }
+            _ => {
+                let trough = design.build(&trajectory).map_err(refused)?;
+                let mut mouth = 1.0;
+                if let (Some(joining), Some((name, trunk))) = (&joining, site.host)
+                    && let Some(trunk) = trunk.parts.first()
+                {
+                    let inside = Interior::of(&trunk.body)
+                        .map_err(|error| ("no trunk", format!("it cannot join {name}: {error}")))?;
+                    mouth = joining.mouth(&trough, &trajectory, &inside, name)?;
+                }
+                let reach = Reach::new(design, trajectory, &trough).with_mouth(mouth);
+                Made {
+                    frame: Frame::Along(Arc::new(reach)),
+                    ..Made::body(Body::Trough(trough), draws.taken())
+                }
+            }
+        };
+        if let Some(own) = &self.section {
+            made.decisions.push(format!(
+                "has a section of {:.6} of width times depth, at its deepest {:.6} of the depth below y = 0",
+                own.area(),
+                -own.deepest().y
+            ));
         }
-        let reach = Reach::new(design, Arc::new(trajectory), &trough).with_mouth(mouth);
-        Ok(Made {
-            frame: Frame::Along(Arc::new(reach)),
-            ..Made::body(Body::Trough(trough), draws.taken()).at_level(rims - PROUD * deepest)
-        })
+        Ok(made.at_level(rims - PROUD * deepest))
     }
 
     fn refers(&self) -> Vec<&Reference> {
@@ -347,6 +384,32 @@ impl Keys<'_, '_> {
                 None
             }
         }
+    }
+
+    /// A section of one's own. It has no other shape besides.
+    fn section(
+        &mut self,
+        field: Option<Field<Any>>,
+        others: [(&str, bool); 3],
+    ) -> Result<Option<Arc<OwnSection>>, Reported> {
+        let Some(field) = field else {
+            return Ok(None);
+        };
+        let (node, Any) = field.good().ok_or(Reported)?;
+        if let Some((key, _)) = others.into_iter().find(|other| other.1) {
+            self.checker.reader.wrong(
+                node,
+                format!(
+                    "{} has both a section of its own and `{key}`",
+                    self.draft.name
+                ),
+                format!("the section's points say its shape: leave out `{key}`, or `section`"),
+            );
+            return Err(Reported);
+        }
+        let what = self.what("section");
+        let section = self.checker.section(node, &what);
+        section.map(Some).ok_or(Reported)
     }
 
     fn check_depth(&self, node: NodeId, depth: &Profile, domain: &Domain) {

@@ -7,6 +7,7 @@ use crate::model::domain::Domain;
 use crate::model::draft::{Draft, Family};
 use crate::model::read::{Any, Field};
 use crate::model::tree::{NodeId, Value, quoted};
+use crate::model::values::bent::{BentProfile, bent_profile};
 use crate::model::values::limits::Limits;
 use crate::model::values::profile::{Profile, profile};
 use crate::model::values::quantity::{Quantity, quantity};
@@ -97,6 +98,19 @@ impl<'t> Keys<'_, 't> {
         limits: Limits,
     ) -> Result<Option<(NodeId, Profile)>, Reported> {
         optional(field, |field| self.profile(field, key, "", limits))
+    }
+
+    /// One that may follow the bends of a trajectory, and may be left out.
+    pub(crate) fn optional_bent_profile(
+        &self,
+        field: Option<Field<Any>>,
+        key: &str,
+        limits: Limits,
+    ) -> Result<Option<BentProfile>, Reported> {
+        optional(field, |field| {
+            let (node, Any) = self.need(field, key, "")?;
+            bent_profile(&self.checker.reader, node, &self.what(key), limits)
+        })
     }
 
     /// A quantity that must be there.

@@ -47,7 +47,7 @@ impl<'a> Site<'a> {
     pub(crate) fn reach(&self) -> Result<&'a Reach, Reason> {
         self.frame
             .reach()
-            .ok_or_else(|| ("no channel", "its parent is no channel".to_owned()))
+            .ok_or_else(|| ("no channel", "its parent is no channel with a floor and a top between rims".to_owned()))
     }
 
     /// Whether anything between two corners can lie in the domain.

@@ -23,6 +23,10 @@ pub(crate) mod scour;
 pub(crate) mod sheet;
 mod unit;
 pub(crate) mod splay;
+pub(crate) mod meander_belt;
+pub(crate) mod plug;
+pub(crate) mod point_bars;
+pub(crate) mod trend;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
@@ -42,6 +46,8 @@ use lag::LagSpec;
 use lobe::LobeSpec;
 use lobes::LobesSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
+use meander_belt::MeanderBeltSpec;
+use plug::PlugSpec;
 use point_bars::PointBarsSpec;
 use scour::ScourSpec;
 use sheet::SheetSpec;
@@ -49,6 +55,7 @@ use levee::LeveeSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
 use splay::SplaySpec;
+use trend::TrendSpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
@@ -216,6 +223,8 @@ kinds! {
     Channel(ChannelSpec),
     /// A concretion or nodule.
     Ellipsoid(EllipsoidSpec),
+    /// A channel that migrates.
+    MeanderBelt(MeanderBeltSpec),
     /// A surface through the domain, with a new unit above it.
     Horizon(HorizonSpec),
     /// Clinoforms that divide a horizon's unit.
@@ -224,6 +233,8 @@ kinds! {
     Clinoform(ClinoformSpec),
     /// The lowest part of a channel's fill.
     Lag(LagSpec),
+    /// What fills an abandoned channel.
+    Plug(PlugSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
     /// A pit with wings, narrow and deep upstream, wide and shallow downstream.
@@ -240,6 +251,8 @@ kinds! {
     Levee(LeveeSpec),
     /// A lobe of what a flood carried through a bank of a channel.
     Splay(SplaySpec),
+    /// A channel or a unit in layers.
+    Trend(TrendSpec),
 }
 
 impl FeatureKind {

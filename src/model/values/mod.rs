@@ -2,6 +2,7 @@
 
 pub(crate) mod conform;
 pub(crate) mod bank;
+pub(crate) mod bent;
 pub(crate) mod distribution;
 pub(crate) mod ends;
 pub(crate) mod facies;
@@ -12,6 +13,7 @@ pub(crate) mod nets;
 pub(crate) mod profile;
 pub(crate) mod property;
 pub(crate) mod quantity;
+pub(crate) mod section;
 pub(crate) mod selector;
 pub(crate) mod surface;
 pub(crate) mod trajectory;

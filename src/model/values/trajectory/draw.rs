@@ -90,7 +90,7 @@ pub(crate) fn trajectory(
     made.map_err(|error| (reason(&error), error.to_string()))
 }
 
-fn reason(error: &TrajectoryError) -> &'static str {
+pub(crate) fn reason(error: &TrajectoryError) -> &'static str {
     match error {
         TrajectoryError::Folds { .. } => "the offset folds in a bend",
         TrajectoryError::NoMeander { .. } => "amplitude too large for the wavelength",
@@ -100,7 +100,7 @@ fn reason(error: &TrajectoryError) -> &'static str {
 }
 
 /// From and to along an axis: the given length about the centre, or all across the domain and beyond.
-fn extent(
+pub(crate) fn extent(
     length: Option<&Quantity>,
     domain: &Domain,
     center: DVec2,
