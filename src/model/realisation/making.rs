@@ -59,7 +59,7 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
             let one = &due[at];
             let host = one.along.or(one.parent);
             let host = host.and_then(|host| built[host].as_ref());
-            let refers = model.features[one.feature].kind.refers();
+            let refers = model.features[one.feature].refers();
             let of = |other: Option<usize>| Some(&built[other?].as_ref()?.made);
             let others: Vec<_> = refers
                 .into_iter()
