@@ -24,7 +24,9 @@ use crate::model::values::quantity::Quantity;
 const MOST_LOBES: u64 = 1000;
 const COMPENSATION: f64 = 5.0;
 /// Nodes of the surface that a lobe lies on, in its width.
-const NODES: f64 = 24.0;
+const NODES: f64 = 10.0;
+/// How far that reaches beyond the lobe, as a fraction of its plan.
+const MARGIN: f64 = 0.15;
 /// How far a lobe may be from where its floor says, in deviations of the floor.
 const WITHIN: f64 = 0.5;
 /// The same where the floor is exact, as a fraction of the thickness; and how far a lobe is sunk there.
@@ -220,15 +222,23 @@ impl Kind for LobesSpec {
     }
 }
 
-/// A lobe laid on what is there, which it is part of from then on; and its body.
+/// A lobe laid on what is there, which it is part of from then on; and its body. As it is sunk into that, it is made as much thicker
+/// and wider: what stands out of a level floor is as thick and as wide as it shall be.
 fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, Body), String> {
-    let lobe = design.build().map_err(|error| error.to_string())?;
-    let plan = lobe.plan();
-    let margin = 0.02 * (plan[1] - plan[0]);
+    let plan = design.build().map_err(|error| error.to_string())?.plan();
+    let margin = MARGIN * (plan[1] - plan[0]);
     let floor = pile
         .floor([plan[0] - margin, plan[1] + margin], design.width / NODES)
         .map_err(|error| error.to_string())?
         .lowered_by(LEAST * design.thickness);
+    let thicker = 1.0 + floor.lowered() / design.thickness;
+    let lobe = LobeDesign {
+        length: design.length * thicker.sqrt(),
+        width: design.width * thicker.sqrt(),
+        thickness: design.thickness * thicker,
+        ..design
+    };
+    let lobe = lobe.build().map_err(|error| error.to_string())?;
     let shell = lobe.eroding(erosion).map_err(|error| error.to_string())?;
     let target = Target {
         height: &|at| Some(floor.height(at)),

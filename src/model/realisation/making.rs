@@ -60,7 +60,7 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
             let host = one.along.or(one.parent);
             let host =
                 host.and_then(|host| Some((due[host].name.as_str(), &built[host].as_ref()?.made)));
-            let refers = model.features[one.feature].kind.refers();
+            let refers = model.features[one.feature].refers();
             let of = |other: Option<usize>| Some(&built[other?].as_ref()?.made);
             let others: Vec<_> = refers
                 .into_iter()
