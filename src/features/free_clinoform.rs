@@ -1,7 +1,7 @@
 //! Clinoforms as a free template: a sigmoidal section carried along any crest in plan (\[J19\] §2.4.1, Fig. 6c).
 //!
-//! The section ([`sigmoid`]) falls from the crest, a height above the toe, over a length; x counts basinward from the crest. Beyond
-//! both ends the sheet goes on as a **topset** and a **bottomset** with the gradients that it has there, ruled along the direction in
+//! The section ([`sigmoid`]) falls from the crest, a height above the toe, over a length; x counts basinward from the crest. A
+//! little beyond both ends the sheet goes on as a **topset** and a **bottomset** with the gradients that it has there, ruled along the direction in
 //! which the set steps (so that no bend is too tight for them), as far above and below as a unit reaches, and a little more: whatever
 //! bounds the unit cuts it there (\[J19\] §2.5.2). The crest goes on straight beyond its ends until the sheet has left the domain.
 //! Where the crest runs aslant to the direction of stepping the topset is a little steeper across it than the slope's end; so the
@@ -27,6 +27,9 @@ use crate::nurbs::{ExtendError, KnotError, KnotVector, Surface, SurfaceError};
 const BEYOND: f64 = 0.06;
 /// How far it goes on at least, as a fraction of its own height.
 const LEAST_BEYOND: f64 = 0.02;
+/// How far the slope itself goes on before topset and bottomset begin, as a fraction of its length: so that these begin beside the
+/// bounds of a unit that it reaches from top to base, not on them.
+const STRAIGHT: f64 = 0.05;
 /// How far sheets reach beyond the domain along strike, as a fraction of the domain's extent there.
 const STRIKE_MARGIN: f64 = 0.1;
 /// How far the sheet's course may be from the template, as a fraction of the length.
@@ -144,10 +147,11 @@ pub struct Room {
     pub unit: [f64; 2],
 }
 
-/// A section: its slope, x basinward from the crest, y = elevation (m); and how far topset and bottomset go on in plan (m), with
-/// the gradient that it has at both ends.
+/// A section: its slope with short straight ends, x basinward from the crest, y = elevation (m); and how far topset and bottomset go
+/// on from there in plan (m), with the gradient of these ends.
 struct Section {
-    slope: [DVec2; 4],
+    across: KnotVector,
+    slope: Vec<DVec2>,
     above: f64,
     below: f64,
     gradient: f64,
@@ -190,7 +194,7 @@ impl FreeClinoformDesign {
                 row.into_iter().map(move |p| (p.xy() + by).extend(level))
             })
             .collect();
-        let slope = Surface::new(KnotVector::uniform(3, 4)?, carried.along, net)?;
+        let slope = Surface::new(section.across, carried.along, net)?;
         let slope = self.across_domain(&slope, ahead, room, crest)?;
         let down = ahead.extend(-section.gradient);
         let (first, last) = slope.knots_u().domain();
@@ -201,7 +205,7 @@ impl FreeClinoformDesign {
     }
 
     /// What lies basinward of them.
-    pub fn side(&self, sheets: [Surface; 3], room: &Room) -> Result<Side, FreeClinoformError> {
+    pub fn side(&self, sheets: &[Surface; 3], room: &Room) -> Result<Side, FreeClinoformError> {
         let ahead = azimuth_vector(self.azimuth);
         let places = sheets.iter().flat_map(Surface::net).map(|p| p.xy());
         let (first, _) = along(places, ahead);
@@ -229,10 +233,27 @@ impl FreeClinoformDesign {
         let [lowest, highest] = [room.unit[0].max(room.low.z), room.unit[1].min(room.high.z)];
         let margin = BEYOND * (highest - lowest);
         let least = LEAST_BEYOND * height;
-        let above = (highest + margin - crest).max(least) / gradient;
-        let below = (crest - height - lowest + margin).max(least) / gradient;
+        let end = STRAIGHT * length;
+        let beyond = |rise: f64| (rise.max(least) - end * gradient).max(least) / gradient;
+        let (above, below) = (
+            beyond(highest + margin - crest),
+            beyond(crest - height - lowest + margin),
+        );
+        // The speed at an end of the sigmoid is three times its first leg: spans in which the straight ends have it, too.
+        let span = end / (3.0 * run);
+        let knots = [
+            vec![-span; 4],
+            vec![0.0; 3],
+            vec![1.0; 3],
+            vec![1.0 + span; 4],
+        ];
+        let leg = |k: i32| DVec2::new(1.0, -gradient) * (end * f64::from(k) / 3.0);
+        let slope = slope.map(|p| p + DVec2::Y * (crest - height));
+        let upper = (-3..0).map(|k| slope[0] + leg(k));
+        let lower = (1..=3).map(|k| slope[3] + leg(k));
         Ok(Section {
-            slope: slope.map(|p| p + DVec2::Y * (crest - height)),
+            across: KnotVector::new(3, knots.concat())?,
+            slope: upper.chain(slope).chain(lower).collect(),
             above,
             below,
             gradient,

@@ -76,7 +76,7 @@ fn between_two_sheets_lies_their_distance_whatever_the_crest_does() {
     let design = design();
     let [older, younger] = [0.0, 150.0].map(|step| {
         let sheets = design.sheets(&crest(), step, 0.0, &ROOM).unwrap();
-        design.side(sheets, &ROOM).unwrap()
+        design.side(&sheets, &ROOM).unwrap()
     });
     // Along lines to the east what is of one and not of the other is as long as the step.
     for k in 0..40 {

@@ -26,9 +26,10 @@ use crate::nurbs::{Curve, ExtendError, Surface, SurfaceError};
 const SAME: f64 = 1e-9;
 /// How far a sheet has to reach beyond the domain, as a fraction of the domain's extents in plan.
 const BEYOND: f64 = 0.02;
-/// By which part of its own domain a net alone goes on straight at once, and how often.
-const STEP: f64 = 0.05;
-const STEPS: usize = 12;
+/// By which part of its own domain a net alone goes on straight at first, and how often that is doubled: by no more than it must, since
+/// weights that fall run out.
+const STEP: f64 = 0.002;
+const STEPS: usize = 10;
 /// Points in each span of a border, when it is asked where that runs.
 const ON_BORDER: usize = 24;
 /// Places along u and v of each sheet of a body at which its inside is asked for.
@@ -454,7 +455,7 @@ fn widened(surface: &Surface, wide: [DVec2; 2]) -> Result<Surface, ExtendError> 
             .zip(inside.into_iter().zip([in_u, in_u, in_v, in_v]))
         {
             if is_inside {
-                *length += step;
+                *length = if *length == 0.0 { step } else { 2.0 * *length };
             }
         }
         surface = own

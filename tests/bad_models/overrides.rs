@@ -51,7 +51,7 @@ fn an_entry_of_a_list_is_set_by_its_number_from_1() {
     let check = |arguments: &[&str]| {
         let mut source = Source::from_text("good.toml", TOML, Format::Toml);
         for argument in arguments {
-            source.set(argument);
+            source.set(*argument);
         }
         Model::check(&source).unwrap()
     };

@@ -242,7 +242,7 @@ impl Kind for ClinoformSpec {
             }
             let made = design
                 .sheets(&crest, step + site.nudge, step * climb.tan(), &room)
-                .and_then(|sheets| design.side(sheets, &room));
+                .and_then(|sheets| design.side(&sheets, &room));
             let side =
                 made.map_err(|error| (reason(&error), format!("sheet {number}: {error}")))?;
             ends.push(draws.drawn.len());

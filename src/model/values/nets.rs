@@ -133,7 +133,7 @@ impl Checker<'_> {
         let name = match file.name.map(Field::good) {
             None => Some((at + 1).to_string()),
             Some(None) => None,
-            Some(Some((place, name))) => self.net_name(place, name, &what, names),
+            Some(Some((place, name))) => self.net_name(place, &name, &what, names),
         };
         let joins = file.joins.map(|field| self.join(field, &what, names));
         names.push(name.clone().unwrap_or_default());
@@ -179,20 +179,20 @@ impl Checker<'_> {
         if !is_id(&name) {
             self.reader.wrong(
                 node,
-                format!("the name {} of {what} is no name", quoted(&name)),
+                format!("the name {} of {what} is no name", quoted(name)),
                 "use letters, digits, - and _",
             );
             return None;
         }
-        if names.contains(&name) {
+        if names.iter().any(|own| own == name) {
             self.reader.wrong(
                 node,
-                format!("{what} has the name {} of an earlier one", quoted(&name)),
+                format!("{what} has the name {} of an earlier one", quoted(name)),
                 "give each net a name of its own",
             );
             return None;
         }
-        Some(name)
+        Some(name.to_owned())
     }
 
     fn net_points(&self, node: NodeId, what: &str) -> Option<Vec<Vec<DVec3>>> {
