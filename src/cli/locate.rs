@@ -7,7 +7,6 @@ use glam::DVec3;
 use super::args::{ModelArgs, finite};
 use super::failure::Failure;
 use super::{load, print};
-use crate::model::Property;
 
 /// Tell which volume holds a point, and which bodies had a say.
 ///
@@ -68,15 +67,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .iter()
             .map(|volume| name(*volume))
             .collect();
-        let numbers = |property: &Property| match property {
-            Property::Scalar(value) => serde_json::json!(value),
-            Property::Vector(values) => serde_json::json!(values),
-            Property::Tensor(rows) => serde_json::json!(rows),
-        };
         let properties: BTreeMap<&str, serde_json::Value> = rock
             .values
             .iter()
-            .map(|(name, property)| (name.as_str(), numbers(property)))
+            .map(|(name, property)| (name.as_str(), property.to_json()))
             .collect();
         let answer = serde_json::json!({
             "point": [args.x, args.y, args.z],

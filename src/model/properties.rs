@@ -23,6 +23,15 @@ impl Property {
         }
     }
 
+    /// As it stands in reports: a number, a list of three, or a tensor's rows.
+    pub fn to_json(&self) -> serde_json::Value {
+        match self {
+            Self::Scalar(value) => serde_json::json!(value),
+            Self::Vector(values) => serde_json::json!(values),
+            Self::Tensor(rows) => serde_json::json!(rows),
+        }
+    }
+
     /// As a tensor; that of one number is the same along all axes.
     pub fn tensor(&self) -> [[f64; 3]; 3] {
         let diagonal = |[x, y, z]: [f64; 3]| [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];

@@ -1,8 +1,8 @@
 //! Channels and ellipsoids: every key arrives, and what is left out has its default.
 
 use clinothem::model::{
-    EllipsoidSpec, Expression, FeatureKind, Model, Pick, Profile, PropertySpec, Quantity, Rgb,
-    SectionOrigin, Selector, TrajectorySpec,
+    EllipsoidSpec, Expression, FeatureKind, Graded, Model, Pick, Profile, PropertySpec, Quantity,
+    Rgb, SectionOrigin, Selector, TrajectorySpec,
 };
 use clinothem::nurbs::interpolate::Parametrization;
 
@@ -92,7 +92,38 @@ fn every_key_arrives_where_it_belongs() {
             ("stress".to_owned(), PropertySpec::from([1.0, 2.0, 3.0])),
         ]
     );
+    let sand = &model.facies[1];
+    assert_eq!(sand.title.as_deref(), Some("Песок"));
+    assert_eq!(
+        sand.color,
+        Rgb {
+            r: 255,
+            g: 215,
+            b: 0
+        }
+    );
+    let rock: Vec<&str> = sand
+        .properties
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .collect();
+    assert_eq!(rock, ["net", "porosity", "permeability", "vsh", "sw"]);
+    assert_eq!(sand.properties[0].1, PropertySpec::from(0.7));
+    let PropertySpec::Layers([_, strike, normal]) = &sand.properties[2].1 else {
+        panic!("{:?}", sand.properties[2]);
+    };
+    assert_eq!(*strike, Graded::Even(300.0.into()));
+    let Graded::Rising { base, top, is_log } = normal else {
+        panic!("{normal:?}");
+    };
+    assert_eq!(
+        (base.constant(), top.support(), *is_log),
+        (Some(5.0), (40.0, 60.0), false)
+    );
     let trunk = &model.features[0];
+    assert_eq!(trunk.title.as_deref(), Some("Brent Næss 上部"));
+    assert!(matches!(trunk.properties[0].1, PropertySpec::Level { .. }));
+    assert_eq!(trunk.properties[1].0, "age");
     assert_eq!(
         (trunk.count, trunk.level, trunk.parent, trunk.enabled),
         (2, 1, None, true)

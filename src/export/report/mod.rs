@@ -8,7 +8,7 @@ mod totals;
 use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
-use crate::model::{Facies, Property, labels, remarks};
+use crate::model::{Facies, labels, remarks};
 
 pub use entries::*;
 use groups::groups;
@@ -182,7 +182,7 @@ fn volume_entry(parts: Parts<'_>, volume: usize, label: Option<String>) -> Volum
         properties: rock
             .values
             .iter()
-            .map(|(name, property)| (name.clone(), value(property)))
+            .map(|(name, property)| (name.clone(), property.to_json()))
             .collect(),
         drawn,
         volume_m3: measured.size_of(volume),
@@ -204,15 +204,6 @@ fn volume_entry(parts: Parts<'_>, volume: usize, label: Option<String>) -> Volum
 pub(crate) fn hex(facies: &Facies) -> String {
     let color = facies.color;
     format!("#{:02x}{:02x}{:02x}", color.r, color.g, color.b)
-}
-
-/// A property as it stands in files.
-pub(crate) fn value(property: &Property) -> serde_json::Value {
-    match property {
-        Property::Scalar(value) => serde_json::json!(value),
-        Property::Vector(values) => serde_json::json!(values),
-        Property::Tensor(rows) => serde_json::json!(rows),
-    }
 }
 
 /// What volumes of these indices are to totals.

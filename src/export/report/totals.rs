@@ -88,7 +88,7 @@ fn means(shares: &[Share<'_>], total: f64) -> (Means, Unknown) {
             .iter()
             .filter_map(|one| Some((one.size / total, one.rock.get(name)?)))
             .collect();
-        means.insert(name.to_owned(), super::value(&mean(&values)));
+        means.insert(name.to_owned(), mean(&values).to_json());
     }
     (means, unknown)
 }

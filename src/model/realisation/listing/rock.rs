@@ -10,7 +10,6 @@ use crate::features::horizon::Horizon;
 use crate::model::draws::{Draws, Key};
 use crate::model::kinds::made::{Frame, Part, TakesFrom};
 use crate::model::properties::VolumeProperties;
-use crate::model::realisation::RealisationError;
 use crate::model::spec::Model;
 use crate::model::values::property::PropertySpec;
 
@@ -25,8 +24,6 @@ pub(super) struct Place<'a> {
     pub(super) number: &'a str,
     /// What follows the instance's name in its own.
     pub(super) part: &'a str,
-    /// Its name, for messages.
-    pub(super) name: &'a str,
     /// The facies, by index.
     pub(super) facies: usize,
     /// What comes in the place of the facies' properties.
@@ -38,8 +35,8 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// Draws its properties.
-    pub(super) fn properties(&self, model: &Model) -> Result<VolumeProperties, RealisationError> {
+    /// Draws its properties; an error says which cannot be drawn, and why.
+    pub(super) fn properties(&self, model: &Model) -> Result<VolumeProperties, String> {
         let key = Key {
             seed: model.seed,
             feature: self.feature,
@@ -66,10 +63,7 @@ impl Place<'_> {
             let is_tensor = name == "permeability";
             let value = spec
                 .draw(&mut draws, &parameter, fraction, &fabric, is_tensor)
-                .map_err(|(_, reason)| RealisationError::Impossible {
-                    volume: self.name.to_owned(),
-                    reason,
-                })?;
+                .map_err(|(_, reason)| reason)?;
             values.push((name.clone(), value));
         }
         Ok(VolumeProperties {
@@ -181,7 +175,6 @@ vsh = { uniform = [0, 1] }
             feature: "trend",
             number: "2",
             part,
-            name: "channel-2/layer",
             facies: 0,
             own: &[],
             fraction,

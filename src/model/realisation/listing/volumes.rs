@@ -41,7 +41,6 @@ impl Volumes {
             feature: "background",
             number: "",
             part: "",
-            name: "background",
             facies: model.domain.facies,
             own: &[],
             fraction: None,
@@ -50,6 +49,9 @@ impl Volumes {
                 .and_then(|base| base.plan())
                 .map(|base| Fabric::of_horizon(base.horizon(), extent)),
         };
+        let rock = background_rock
+            .properties(model)
+            .map_err(impossible("background"))?;
         let mut adding = Adding {
             model,
             selection,
@@ -57,7 +59,7 @@ impl Volumes {
             volumes: Self {
                 rules: vec![background(model)],
                 instances: Vec::new(),
-                properties: vec![background_rock.properties(model)?],
+                properties: vec![rock],
                 decisions: Vec::new(),
             },
             extent,
@@ -157,7 +159,6 @@ impl Adding<'_> {
                 feature: &feature.id,
                 number: &due.number,
                 part: &part.name,
-                name: &rules.name,
                 facies: part.facies.unwrap_or(feature.facies),
                 // What has a facies of its own is rock of another kind.
                 own: match part.facies {
@@ -167,7 +168,10 @@ impl Adding<'_> {
                 fraction: part.fraction,
                 fabric: fabrics.get(at).copied(),
             };
-            self.volumes.properties.push(rock.properties(self.model)?);
+            let rock = rock
+                .properties(self.model)
+                .map_err(impossible(&rules.name))?;
+            self.volumes.properties.push(rock);
             self.volumes.rules.push(rules);
             self.volumes.instances.push(Instance {
                 volume,
@@ -214,12 +218,7 @@ impl Adding<'_> {
             parent: due.parent.map(|parent| &self.frames[parent]),
             top: due.top.as_ref(),
         };
-        layers
-            .of(parts)
-            .map_err(|reason| RealisationError::Impossible {
-                volume: due.name.clone(),
-                reason,
-            })
+        layers.of(parts).map_err(impossible(&due.name))
     }
 
     /// Whether a part takes part: neither it nor what it is a part of is left out.
@@ -279,6 +278,14 @@ impl Adding<'_> {
             piece_of: None,
             along: None,
         }
+    }
+}
+
+/// The error of a volume that is refused for some reason.
+fn impossible(volume: &str) -> impl Fn(String) -> RealisationError + '_ {
+    move |reason| RealisationError::Impossible {
+        volume: volume.to_owned(),
+        reason,
     }
 }
 
