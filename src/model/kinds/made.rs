@@ -45,9 +45,12 @@ pub(crate) struct Site<'a> {
 impl<'a> Site<'a> {
     /// The channel that it lies in or goes along.
     pub(crate) fn reach(&self) -> Result<&'a Reach, Reason> {
-        self.frame
-            .reach()
-            .ok_or_else(|| ("no channel", "its parent is no channel with a floor and a top between rims".to_owned()))
+        self.frame.reach().ok_or_else(|| {
+            (
+                "no channel",
+                "its parent is no channel with a floor and a top between rims".to_owned(),
+            )
+        })
     }
 
     /// Whether anything between two corners can lie in the domain.

@@ -58,8 +58,7 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
         let make = |at: usize| {
             let one = &due[at];
             let host = one.along.or(one.parent);
-            let host =
-                host.and_then(|host| Some((due[host].name.as_str(), &built[host].as_ref()?.made)));
+            let host = host.and_then(|host| Some((due[host].name.as_str(), built[host].as_ref()?)));
             let refers = model.features[one.feature].refers();
             let of = |other: Option<usize>| Some(&built[other?].as_ref()?.made);
             let others: Vec<_> = refers
@@ -72,14 +71,14 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
                 interior: one.parent.and_then(|parent| interiors.get(&parent)),
                 surface: list.surface(one.feature),
                 is_child: one.parent.is_some(),
-                frame: host.map_or(&domain, |host| &host.1.frame),
-                host,
+                frame: host.map_or(&domain, |host| &host.1.made.frame),
+                host: host.map(|(name, host)| (name, &host.made)),
                 others: &others,
                 top: one.top.as_ref(),
                 nudge: one.nudge,
                 warp: None,
             };
-            let inherited = host.and_then(|host| host.warp.as_ref());
+            let inherited = host.and_then(|host| host.1.warp.as_ref());
             Ok((at, build(model, one, &site, inherited)?))
         };
         let generation: Vec<Result<_, RealisationError>> =

@@ -1,8 +1,8 @@
 //! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
 
-pub(crate) mod conform;
 pub(crate) mod bank;
 pub(crate) mod bent;
+pub(crate) mod conform;
 pub(crate) mod distribution;
 pub(crate) mod ends;
 pub(crate) mod facies;
