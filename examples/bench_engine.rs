@@ -75,6 +75,7 @@ mod timed {
             plan,
             assembly: &made,
             level: options.proof,
+            with_bounds: false,
         });
         let program = &report.program;
         result["version"] = json!(format!(

@@ -58,6 +58,7 @@ impl Built {
             plan: &self.plan,
             assembly: &self.assembly,
             level: proof::Level::Full,
+            with_bounds: false,
         })
     }
 

@@ -30,7 +30,7 @@ fn selected(text: &str, without: &[&str]) -> Realisation {
         max_level: None,
     };
     let model = model(text, &[]);
-    selection.check(&model).unwrap();
+    let selection = selection.found_in(&model).unwrap();
     Realisation::new(&model, &selection).unwrap()
 }
 
