@@ -2,7 +2,6 @@
 //! derivatives by arc length. One parameter serves the curve in space and its images on both sheets.
 
 use glam::{DVec2, DVec3};
-use smallvec::SmallVec;
 
 /// What runs along a curve: x, y, z, then (u, v) on the first sheet, then (u, v) on the second.
 pub(super) const PARTS: usize = 7;
@@ -60,6 +59,7 @@ pub(super) fn control(a: &Node, b: &Node, length: f64) -> [[f64; PARTS]; 6] {
 }
 
 /// The same, of `K` parts from the `first` on.
+#[inline]
 fn control_of<const K: usize>(a: &Node, b: &Node, length: f64, first: usize) -> [[f64; K]; 6] {
     let (h, k) = (length / 5.0, length * length / 20.0);
     // The node's quadratic Taylor polynomial as one of degree 5.
@@ -124,6 +124,34 @@ fn slope<const K: usize>(points: &[[f64; K]; 6], s: f64) -> [f64; K] {
         }
     }
     sum
+}
+
+/// The control points of a part of a piece, between fractions of its length.
+pub(super) fn part<const K: usize>(points: &[[f64; K]; 6], [from, to]: [f64; 2]) -> [[f64; K]; 6] {
+    let mut whole = *points;
+    if to < 1.0 {
+        whole = lower(whole, to);
+    }
+    if from > 0.0 {
+        // The lower part of the reverse.
+        whole.reverse();
+        whole = lower(whole, 1.0 - from / to);
+        whole.reverse();
+    }
+    whole
+}
+
+/// The control points up to a fraction (de Casteljau).
+fn lower<const K: usize>(mut points: [[f64; K]; 6], s: f64) -> [[f64; K]; 6] {
+    for round in 1..6 {
+        for k in (round..6).rev() {
+            let before = points[k - 1];
+            for (own, before) in points[k].iter_mut().zip(before) {
+                *own = (1.0 - s) * before + s * *own;
+            }
+        }
+    }
+    points
 }
 
 /// Nearer to a node than this fraction of a piece, the piece is as good as exact: its error grows with the third power.
@@ -196,6 +224,24 @@ impl Branch {
         control(&self.nodes[piece], &self.nodes[piece + 1], length)
     }
 
+    /// The control points of the images of a piece on both sheets.
+    pub(super) fn images(&self, piece: usize) -> [[f64; 4]; 6] {
+        let length = self.lengths[piece + 1] - self.lengths[piece];
+        control_of(
+            &self.nodes[piece],
+            &self.nodes[piece + 1],
+            length,
+            SHEETS[0],
+        )
+    }
+
+    /// Parameters as fractions of a piece's length.
+    pub(super) fn fractions(&self, piece: usize, range: [f64; 2]) -> [f64; 2] {
+        let start = self.lengths[piece];
+        let length = self.lengths[piece + 1] - start;
+        range.map(|t| ((t - start) / length).clamp(0.0, 1.0))
+    }
+
     fn locate(&self, t: f64) -> (usize, f64) {
         let inner = &self.lengths[1..self.lengths.len() - 1];
         let piece = inner.partition_point(|length| *length <= t);
@@ -248,28 +294,26 @@ impl Branch {
 
     /// The parameter of the nearest point to one that lies near the branch, and its distance.
     pub(super) fn project(&self, p: DVec3) -> (f64, f64) {
-        let squares = self
-            .nodes
-            .iter()
-            .map(|node| node.point().distance_squared(p));
-        let squares: SmallVec<[f64; 64]> = squares.collect();
-        let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
-        // No piece is far longer than its chord, so nothing of it is nearer than its start less its length.
-        let mut best = (0.0, f64::INFINITY);
-        let mut within = nearest.sqrt();
-        for (piece, square) in squares[..self.pieces()].iter().enumerate() {
+        self.nearest(p, f64::INFINITY)
+            .unwrap_or((0.0, f64::INFINITY))
+    }
+
+    /// The parameter of the nearest point to one, and its distance, if that is less than a given one.
+    pub(super) fn nearest(&self, p: DVec3, within: f64) -> Option<(f64, f64)> {
+        let mut best = (f64::NAN, within);
+        for piece in 0..self.pieces() {
             let length = self.lengths[piece + 1] - self.lengths[piece];
-            let reach = within + 1.5 * length;
-            if *square > reach * reach {
+            let from = self.nodes[piece].point();
+            let reach = best.1 + 1.5 * length;
+            if from.distance_squared(p) > reach * reach {
                 continue;
             }
             let (s, distance) = project(&self.nodes[piece], &self.nodes[piece + 1], length, p);
             if distance < best.1 {
                 best = (self.lengths[piece] + s * length, distance);
-                within = within.min(distance);
             }
         }
-        best
+        (best.1 < within).then_some(best)
     }
 
     /// The pieces that hold a range of parameters, as flat knots and control points: C2, knots of multiplicity 3.

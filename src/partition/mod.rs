@@ -35,6 +35,7 @@ mod facet;
 mod heights;
 mod hermite;
 mod landing;
+mod linear;
 mod march;
 mod pair;
 mod patch;

@@ -12,9 +12,13 @@ use smallvec::SmallVec;
 use super::bounds::Bounds;
 
 pub(super) use evaluate::{Jet, Slice};
+pub(super) use normals::Cones;
 
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
+
+/// Weights that differ by this fraction are the same.
+const SAME: f64 = 1e-13;
 
 /// One of the two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +36,8 @@ pub(super) struct Patch {
     rows: usize,
     columns: usize,
     rational: bool,
+    /// Whether each weight is a product of one of its row and one of its column.
+    has_product_weights: bool,
     net: Net,
     pub(super) u: [f64; 2],
     pub(super) v: [f64; 2],
@@ -58,6 +64,7 @@ impl Patch {
             .collect();
         Self {
             rational,
+            has_product_weights: are_products(weights, rows),
             ..Self::bare(rows, net, u, v)
         }
         .measured()
@@ -70,6 +77,7 @@ impl Patch {
             rows,
             columns: net.len() / rows,
             rational: false,
+            has_product_weights: true,
             bounds: Bounds::EMPTY,
             net,
             u,
@@ -139,6 +147,27 @@ impl Patch {
         } else {
             Along::V
         }
+    }
+
+    /// The direction along which its tangents turn more, by its borders: beside a pole, around that.
+    pub(super) fn rounder(&self) -> Along {
+        let (last_u, last_v) = (self.rows - 1, self.columns - 1);
+        let step = |from: [usize; 2], to: [usize; 2]| {
+            (self.control(to[0], to[1]) - self.control(from[0], from[1])).normalize_or_zero()
+        };
+        // The first leg along one parameter and the last, seen from both borders.
+        let along_u = |j: usize| [step([0, j], [1, j]), step([last_u - 1, j], [last_u, j])];
+        let along_v = |i: usize| [step([i, 0], [i, 1]), step([i, last_v - 1], [i, last_v])];
+        let ([a, b], [c, d]) = (along_u(0), along_u(last_v));
+        let ([e, f], [g, h]) = (along_v(0), along_v(last_u));
+        // Vanishing legs say nothing.
+        let turn = |one: DVec3, other: DVec3| {
+            let is_leg = one != DVec3::ZERO && other != DVec3::ZERO;
+            if is_leg { 1.0 - one.dot(other) } else { 0.0 }
+        };
+        let by_u = turn(a, b) + turn(c, d) + turn(e, g) + turn(f, h);
+        let by_v = turn(e, f) + turn(g, h) + turn(a, c) + turn(b, d);
+        if by_u > by_v { Along::U } else { Along::V }
     }
 
     /// Hands on those of its two halves (de Casteljau) whose boxes are wanted.
@@ -211,6 +240,16 @@ impl Patch {
             },
         )
     }
+}
+
+/// Whether weights are products, up to rounding.
+fn are_products(weights: &[f64], rows: usize) -> bool {
+    let columns = weights.len() / rows;
+    weights.iter().enumerate().all(|(at, weight)| {
+        let (row, column) = (weights[at - at % columns], weights[at % columns]);
+        let (one, other) = (weight * weights[0], row * column);
+        (one - other).abs() <= SAME * other.abs()
+    })
 }
 
 fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {

@@ -9,7 +9,7 @@ use glam::{DVec3, DVec4};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
-use super::patch::{self, Patch};
+use super::patch::{self, Cones, Patch};
 use crate::nurbs::Surface;
 
 /// Height fields with more patches than this are not kept as patches.
@@ -18,8 +18,8 @@ const MANY: usize = 20_000;
 /// The patches of a sheet, u-major.
 #[derive(Clone, Debug)]
 pub(super) enum Patches {
-    /// All of them, with cones that hold their normals.
-    Kept(Vec<Patch>, Vec<Option<(DVec3, f64)>>),
+    /// All of them, with the cones that hold their directions.
+    Kept(Vec<Patch>, Vec<Cones>),
     /// Control points from which they are made.
     Made(Heights),
 }
@@ -68,8 +68,8 @@ impl Patches {
                 patches.push(Patch::new(degrees[0] + 1, &net, &weights, u, v));
             }
         }
-        let normals = patches.iter().map(Patch::normals).collect();
-        Self::Kept(patches, normals)
+        let cones = patches.iter().map(Patch::cones).collect();
+        Self::Kept(patches, cones)
     }
 
     pub(super) fn get(&self, at: usize) -> Cow<'_, Patch> {
@@ -87,14 +87,14 @@ impl Patches {
         }
     }
 
-    /// A patch with a cone that holds its normals.
-    pub(super) fn with_normals(&self, at: usize) -> (Cow<'_, Patch>, Option<(DVec3, f64)>) {
+    /// A patch with the cones that hold its directions.
+    pub(super) fn with_cones(&self, at: usize) -> (Cow<'_, Patch>, Cones) {
         let patch = self.get(at);
-        let normals = match self {
-            Self::Kept(_, normals) => normals[at],
-            Self::Made(_) => patch.normals(),
+        let cones = match self {
+            Self::Kept(_, cones) => cones[at],
+            Self::Made(_) => patch.cones(),
         };
-        (patch, normals)
+        (patch, cones)
     }
 
     /// The box of a patch.
@@ -177,11 +177,12 @@ mod tests {
         let kept = Patches::of(&surface, &distinct, false);
         assert!(matches!(made, Patches::Made(_)) && matches!(kept, Patches::Kept(..)));
         for at in [0, 139, 140, 8_888, 150 * 140 - 1] {
-            let (made, made_normals) = made.with_normals(at);
-            let (kept, kept_normals) = kept.with_normals(at);
+            let (made, made_cones) = made.with_cones(at);
+            let (kept, kept_cones) = kept.with_cones(at);
             assert_eq!((made.u, made.v), (kept.u, kept.v));
             assert!(made.slab().0.distance(kept.slab().0) < 1e-12);
-            let (made_normals, kept_normals) = (made_normals.unwrap(), kept_normals.unwrap());
+            let [made_normals, kept_normals] =
+                [made_cones, kept_cones].map(|cones| cones.normals.unwrap());
             assert!(made_normals.0.distance(kept_normals.0) < 1e-13);
             assert!((made_normals.1 - kept_normals.1).abs() < 1e-13);
             let (u, v) = (

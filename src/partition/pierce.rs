@@ -9,7 +9,7 @@ use super::bounds::Bounds;
 use super::cone::cone;
 use super::facet::Facet;
 use super::pair::Tolerances;
-use super::patch::Patch;
+use super::patch::{Cones, Patch};
 use super::sheet::{NodeKind, Sheet};
 use super::solve::solve;
 
@@ -221,7 +221,7 @@ impl<'a> Piercing<'a> {
             _ if near.is_empty() => {}
             NodeKind::Leaf(patch) => {
                 let facet = self.sheet.facet(patch);
-                self.patches(&facet.patch, &|| facet.normals, &near);
+                self.patches(&facet.patch, &|| facet.cones, &near);
             }
             NodeKind::Pair(a, b) => {
                 self.nodes(a, &near);
@@ -230,13 +230,8 @@ impl<'a> Piercing<'a> {
         }
     }
 
-    /// Halves a patch once for all segments that are much smaller. Its normals are asked for when it is small enough.
-    fn patches(
-        &mut self,
-        patch: &Patch,
-        normals: &dyn Fn() -> Option<(DVec3, f64)>,
-        near: &[usize],
-    ) {
+    /// Halves a patch once for all segments that are much smaller. Its cones are asked for when it is small enough.
+    fn patches(&mut self, patch: &Patch, cones: &dyn Fn() -> Cones, near: &[usize]) {
         let segments = self.segments;
         let may_pass = |at: &usize| segments[*at].may_pass(patch);
         let near: Few = near.iter().copied().filter(may_pass).collect();
@@ -245,10 +240,13 @@ impl<'a> Piercing<'a> {
         if near.len() > 1 && patch.bounds.extent() > RATIO * longest {
             let wanted = |bounds: &Bounds| near.iter().any(|at| segments[*at].bounds.meets(bounds));
             patch.halve(patch.longer(), wanted, |half| {
-                self.patches(&half, &|| half.normals(), &near);
+                self.patches(&half, &|| half.cones(), &near);
             });
         } else if !near.is_empty() {
-            let facet = Facet::whole(Cow::Borrowed(patch), normals());
+            let facet = Facet {
+                patch: Cow::Borrowed(patch),
+                cones: cones(),
+            };
             for at in near {
                 self.segment = at;
                 self.pieces(&segments[at], &facet);
@@ -267,7 +265,7 @@ impl<'a> Piercing<'a> {
         }
         let patch = &facet.patch;
         let tangents = segment.tangents();
-        let (normals, lean) = (facet.normals, facet.lean());
+        let (normals, lean) = (facet.cones.normals, facet.lean());
         let bend = tangents.map_or(f64::INFINITY, |t| t.1);
         if let (Some((along, bend)), Some((normal, lean))) = (tangents, normals)
             && bend < STRAIGHT

@@ -1,16 +1,18 @@
 //! Where two sheets may cross: halving patches until boxes, slabs and cones of normals decide.
 //!
-//! A pair of patches whose normals have no direction in common crosses in simple arcs, one behind the other: a loop, or two
-//! side by side, would need parallel normals somewhere. So one place on an arc is enough where it is alone ([`Chords`]); else the
-//! halves are asked. An attempt to land on it that fails says nothing either: the arc may be far from where it is looked for.
+//! Where a parameter grows along all chords of two patches they cross in simple arcs, one behind the other; so one place on an arc is
+//! enough where it is alone ([`Chords`]). Else the halves are asked: an attempt to land on a curve that fails says nothing, the
+//! arc may be far from where it is looked for. What is neither apart nor known when it is small is counted: a curve that is missed
+//! lies in such patches alone.
 
 use glam::DVec3;
 
-use super::alone::{BORDER, Chords};
+use super::alone::{BORDER, Chords, Frame};
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, Node};
-use super::pair::{Closing, PARALLEL, Pair, Step, lies};
+use super::linear::{self, Guess};
+use super::pair::{Closing, PARALLEL, Pair, lies};
 use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 
@@ -34,7 +36,6 @@ const RATIO: f64 = 4.0;
 /// Looks for places where two sheets cross, and hands each to `found`, which returns the branch through it.
 pub(super) struct Search<'a, F> {
     pub(super) pair: Pair<'a>,
-    pub(super) clip: Bounds,
     /// What is halved: the sheets, or splines of them lifted.
     shapes: [&'a Sheet; 2],
     /// Where these may be.
@@ -51,18 +52,30 @@ pub(super) struct Search<'a, F> {
     pub(super) undecided: usize,
     /// Pairs of patches with a curve that is alone there.
     pub(super) certain: usize,
-    /// Smallest pairs of patches with a curve where another one is not excluded.
+    /// Smallest pairs of patches where a curve may be missed.
     pub(super) uncertain: usize,
     halvings: usize,
 }
 
-/// Where an attempt to land has ended.
+/// A common point of two sheets.
 #[derive(Clone, Copy)]
-enum Landing {
+enum Place {
     /// On a branch, at a parameter of it.
     On(usize, f64),
-    /// On a curve that cannot be followed.
-    Lost,
+    /// On none that is known.
+    New(Node),
+}
+
+/// What is known of two patches.
+enum Verdict {
+    /// They have nothing in common.
+    Apart,
+    /// All that they have in common.
+    Known,
+    /// They may have more in common than a curve that was found, or something where none was.
+    Doubtful,
+    /// Curves in them may be loops, or lie side by side.
+    Open,
 }
 
 impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
@@ -79,7 +92,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             around: lifted.map_or(clip, |lifted| lifted.around(&clip)),
             slack: pair.tolerances.curve + lifted.map_or(0.0, |lifted| lifted.slack()),
             pair,
-            clip,
             branches,
             found,
             matters,
@@ -137,46 +149,36 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
-        let (clip, around) = (self.clip, self.around);
-        let flat = a.lean() < FLAT && b.lean() < FLAT;
+        let around = self.around;
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
-        // Where boxes and slabs overlap they may still be apart along the line of their planes.
-        if flat && a.is_past(b, self.slack) {
-            return;
-        }
-        if flat && a.is_askew(b) {
-            let landing = self.land(a, b, |_| true);
-            // A curve that passes beside the smallest patches passes through what is around them.
-            let around = if is_small { BESIDE } else { BORDER };
-            let is_done = landing.is_some_and(|landing| self.is_all(a, b, landing, around));
-            if is_done {
-                self.certain += 1;
-                return;
-            }
-            if is_small {
-                let [u, v] = a.patch.middle();
-                let counts = landing.is_some() && (self.matters)(a.patch.point(u, v));
-                self.uncertain += usize::from(counts);
-                return;
-            }
-        } else {
-            if flat && a.leans_from(b) && self.land(a, b, |node| clip.holds(node.point())).is_some()
-            {
-                return;
-            }
-            if is_small {
-                if self.land(a, b, |_| true).is_none() && !self.passes_by(a, b) {
-                    let [u, v] = a.patch.middle();
-                    let point = self.pair.sheets[0].point(u, v);
-                    self.undecided += usize::from((self.matters)(point));
+        let is_flat = a.lean() < FLAT && b.lean() < FLAT;
+        if is_flat {
+            match self.flat(a, b, is_small) {
+                Verdict::Apart | Verdict::Known => return,
+                Verdict::Doubtful if is_small => {
+                    self.doubt(a);
+                    return;
                 }
+                Verdict::Doubtful | Verdict::Open => {}
+            }
+        }
+        if is_small {
+            let guess = linear::guess(&a.patch, &b.patch, BESIDE);
+            let place = self.locate(a, b, &guess);
+            let is_near = place.and_then(|place| self.follow(place)).is_some();
+            if !is_near && !self.passes_by(a, b) {
+                let [u, v] = a.patch.middle();
+                let point = self.pair.sheets[0].point(u, v);
+                self.undecided += usize::from((self.matters)(point));
                 return;
             }
+            self.doubt(a);
+            return;
         }
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
         let too_small = size_a < least || size_b < least;
-        let first = if unlike || too_small || (a.lean() < FLAT && b.lean() < FLAT) {
+        let first = if unlike || too_small || is_flat {
             size_a > size_b
         } else {
             a.lean() > b.lean()
@@ -199,61 +201,87 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         );
     }
 
-    /// Whether the curve that an attempt has landed on is all that two patches have in common.
-    fn is_all(&self, a: &Facet<'_>, b: &Facet<'_>, landing: Landing, around: f64) -> bool {
-        match landing {
-            Landing::Lost => true,
-            Landing::On(branch, t) => {
-                let branch = &self.branches[branch];
-                Chords::new(a, b, around).is_some_and(|chords| chords.has_only(branch, t))
+    /// What is known of two nearly flat patches.
+    fn flat(&mut self, a: &Facet<'_>, b: &Facet<'_>, is_small: bool) -> Verdict {
+        // A curve that passes beside the smallest patches passes through what is around them.
+        let beside = if is_small { BESIDE } else { BORDER };
+        let guess = linear::guess(&a.patch, &b.patch, BESIDE);
+        if let Guess::Apart(along) = guess {
+            // Where boxes and slabs overlap they may still be apart another way.
+            let [own, others] = [a, b].map(|facet| facet.patch.range_along(along));
+            let slack = self.slack * along.length();
+            if own[0] > others[1] + slack || others[0] > own[1] + slack {
+                return Verdict::Apart;
             }
+        }
+        let by_cones = Chords::new(a, b, beside);
+        let frame = match by_cones {
+            Some(_) => None,
+            None => Frame::of(a, b),
+        };
+        if by_cones.is_none() && frame.is_none() {
+            return Verdict::Open;
+        }
+        let place = match guess {
+            Guess::Meet(..) => self.locate(a, b, &guess),
+            _ => None,
+        };
+        let by_slopes = || Chords::of_slopes(frame.as_ref()?, a, b, beside);
+        let Some(place) = place else {
+            // The halves of others are asked in any case.
+            let may_touch = is_small && by_cones.is_none() && by_slopes().is_none();
+            return if may_touch {
+                Verdict::Open
+            } else {
+                Verdict::Doubtful
+            };
+        };
+        let Some(chords) = by_cones.or_else(by_slopes) else {
+            return Verdict::Open;
+        };
+        let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
+        match self.follow(place) {
+            Some((branch, t)) if chords.has_only(&self.branches[branch], t, lengths) => {
+                self.certain += 1;
+                Verdict::Known
+            }
+            _ => Verdict::Doubtful,
         }
     }
 
-    /// Tries to land on the curve between two patches: on a known one, or on a new one that is wanted.
-    fn land(
-        &mut self,
-        a: &Facet<'_>,
-        b: &Facet<'_>,
-        wanted: impl Fn(&Node) -> bool,
-    ) -> Option<Landing> {
+    /// Counts a pair of the smallest patches of which not all is known.
+    fn doubt(&mut self, a: &Facet<'_>) {
+        let [u, v] = a.patch.middle();
+        self.uncertain += usize::from((self.matters)(a.patch.point(u, v)));
+    }
+
+    /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
+    fn locate(&self, a: &Facet<'_>, b: &Facet<'_>, guess: &Guess) -> Option<Place> {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
         let within = grown(BESIDE);
-        let known = |(at, branch): (usize, &Branch)| {
-            let passes = |ranges: &[[f64; 2]; 4]| {
-                let inside = |node: &Node| lies(&node.parameters(), ranges);
-                branch.nodes.iter().position(inside)
-            };
-            // Rather a node well inside than one beside.
-            let node = passes(&rectangles).or_else(|| passes(&within))?;
-            Some(Landing::On(at, branch.lengths[node]))
-        };
-        if let Some(landing) = self.branches.iter().enumerate().find_map(known) {
-            return Some(landing);
+        // Rather a node well inside than one beside.
+        let mut beside = None;
+        for (at, branch) in self.branches.iter().enumerate() {
+            for (node, length) in branch.nodes.iter().zip(&branch.lengths) {
+                let q = node.parameters();
+                if lies(&q, &within) {
+                    if lies(&q, &rectangles) {
+                        return Some(Place::On(at, *length));
+                    }
+                    beside = beside.or(Some(Place::On(at, *length)));
+                }
+            }
         }
-        // From the middle of the smaller patch, and the place on the larger one that is nearest to it.
-        let a_is_smaller = a.patch.bounds.extent() <= b.patch.bounds.extent();
-        let (small, large) = if a_is_smaller { (a, b) } else { (b, a) };
-        let [u, v] = small.patch.middle();
-        let small = small.patch.first_jet(u, v);
-        let [s, t] = nearest(&large.patch, small.0);
-        let large = large.patch.first_jet(s, t);
-        let normals = [small, large].map(|(_, u, v)| u.cross(v));
-        let tangent = normals[0].cross(normals[1]).try_normalize()?;
-        let (mut q, jets) = if a_is_smaller {
-            ([u, v, s, t], [small, large])
-        } else {
-            ([s, t, u, v], [large, small])
+        if beside.is_some() {
+            return beside;
+        }
+        let Guess::Meet(mut q, tangent, point) = *guess else {
+            return None;
         };
-        let closing = Closing::Plane(tangent, small.0);
-        let around = grown(REACH);
-        // Most attempts end with the first step, for which both patches are known.
-        let step = Step::new(&jets, &q, closing)?;
-        step.apply(&mut q);
-        let landed = lies(&q, &around)
-            && self.pair.newton_within(&mut q, closing, 10, &around)
-            && lies(&q, &within);
+        let closing = Closing::Plane(tangent, point);
+        let landed =
+            self.pair.newton_within(&mut q, closing, 10, &grown(REACH)) && lies(&q, &within);
         if !landed {
             return None;
         }
@@ -262,20 +290,22 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return None;
         }
         let node = self.pair.node(q, None)?;
-        if let Some(landing) = self.traced(&node) {
-            return Some(landing);
-        }
-        if !wanted(&node) {
-            return None;
-        }
+        Some(self.traced(&node).unwrap_or(Place::New(node)))
+    }
+
+    /// The branch through a place and the place's parameter on it; `None` if it cannot be followed.
+    fn follow(&mut self, place: Place) -> Option<(usize, f64)> {
+        let node = match place {
+            Place::On(branch, t) => return Some((branch, t)),
+            Place::New(node) => node,
+        };
         let Some(branch) = (self.found)(node) else {
-            // A point of a curve that cannot be followed.
             self.undecided += usize::from((self.matters)(node.point()));
-            return Some(Landing::Lost);
+            return None;
         };
         let t = branch.project(node.point()).0;
         self.branches.push(branch);
-        Some(Landing::On(self.branches.len() - 1, t))
+        Some((self.branches.len() - 1, t))
     }
 
     /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
@@ -301,12 +331,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// The known branch that passes through a point.
-    fn traced(&self, node: &Node) -> Option<Landing> {
+    fn traced(&self, node: &Node) -> Option<Place> {
         let near = (6.0 * self.pair.tolerances.curve / node.sine.max(PARALLEL))
             .max(1e2 * self.pair.tolerances.curve);
         let passes = |(at, branch): (usize, &Branch)| {
-            let (t, distance) = branch.project(node.point());
-            (distance < near).then_some(Landing::On(at, t))
+            let (t, _) = branch.nearest(node.point(), near)?;
+            Some(Place::On(at, t))
         };
         self.branches.iter().enumerate().find_map(passes)
     }
@@ -321,24 +351,6 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 fn grow(low: f64, high: f64, by: f64) -> [f64; 2] {
     let slack = by * (high - low);
     [low - slack, high + slack]
-}
-
-/// About where a nearly flat patch is nearest to a point.
-fn nearest(patch: &Patch, point: DVec3) -> [f64; 2] {
-    let [mut u, mut v] = patch.middle();
-    for _ in 0..2 {
-        let (p, pu, pv) = patch.first_jet(u, v);
-        let offset = point - p;
-        let (uu, uv, vv) = (pu.dot(pu), pu.dot(pv), pv.dot(pv));
-        let determinant = uu * vv - uv * uv;
-        if !(determinant > 0.0) {
-            break;
-        }
-        let (ru, rv) = (offset.dot(pu), offset.dot(pv));
-        u = (u + (vv * ru - uv * rv) / determinant).clamp(patch.u[0], patch.u[1]);
-        v = (v + (uu * rv - uv * ru) / determinant).clamp(patch.v[0], patch.v[1]);
-    }
-    [u, v]
 }
 
 /// Whether the parameters of patches overlap or touch.

@@ -173,10 +173,10 @@ impl Sheet {
         [0, 1].map(|end| DVec2::new(self.knots[0][i + end], self.knots[1][j + end]))
     }
 
-    /// A patch with its normals.
+    /// A patch with its tangents and normals.
     pub(super) fn facet(&self, at: usize) -> Facet<'_> {
-        let (patch, normals) = self.patches.with_normals(at);
-        Facet::whole(patch, normals)
+        let (patch, cones) = self.patches.with_cones(at);
+        Facet { patch, cones }
     }
 
     /// All patches, u-major.

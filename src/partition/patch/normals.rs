@@ -1,47 +1,47 @@
-//! Where the normals of patches point, from the legs of their nets.
+//! Where tangents and normals of patches point, from the legs of their nets.
 //!
-//! Tangents along u are sums of legs along u, those along v of legs along v, with positive factors; so normals are
-//! such sums of the products of legs. Rational patches scale hodographs by positive functions.
+//! Tangents along u are sums of legs along u with positive factors, those along v of legs along v; so normals are such sums of the
+//! products of legs. For a rational patch that is so up to a positive function where weights are products, one factor for
+//! each row and one for each column: then a curve in it has the weights of a row, and its tangents are sums of the steps from
+//! any of its control points to later ones, which are sums of legs. Where weights are no products, steps between all rows
+//! (columns) take the place of legs.
 
 use glam::{DVec3, Vec4Swizzles};
 use smallvec::SmallVec;
 
 use super::Patch;
-use crate::partition::cone::cone;
+use crate::partition::cone::{cone, product};
 
-/// Most legs along v of patches whose normals are compared one by one: of 4 × 4 control points there are 12.
-const LANES: usize = 12;
+/// The usual number of legs each way: of 4 × 4 control points there are 12.
+const LEGS: usize = 12;
 
-/// Steps between neighbouring control points, along u and along v.
-#[derive(Default)]
-struct Legs {
-    u: SmallVec<[DVec3; LANES]>,
-    v: SmallVec<[DVec3; LANES]>,
+/// Steps between control points, along u and along v.
+type Legs = [SmallVec<[DVec3; LEGS]>; 2];
+
+/// Cones that hold the directions of a patch, as far as they fit half-spaces: unit axes and sines of half-angles.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::partition) struct Cones {
+    /// Of its tangents along u and along v.
+    pub(in crate::partition) tangents: [Option<(DVec3, f64)>; 2],
+    /// Of all products of a tangent along u and one along v, not of one place only: so of its normals, too.
+    pub(in crate::partition) normals: Option<(DVec3, f64)>,
 }
 
 impl Patch {
-    /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
-    ///
-    /// Legs of the net hold all tangents in cones about their means (hodographs lie in the hull of their
-    /// control vectors), and a product of vectors of two cones leans from the product of the axes by at
-    /// most `(sin α + sin β) / sin γ`-like amounts, γ the angle between the axes. The legs of rational patches
-    /// still bound the directions well enough here: cones only decide how deep to look.
-    pub(in crate::partition) fn normals(&self) -> Option<(DVec3, f64)> {
-        let mut legs = Legs::default();
-        self.legs(&mut legs);
-        let (a, alpha) = cone(&legs.u)?;
-        let (b, beta) = cone(&legs.v)?;
-        let cross = a.cross(b);
-        let gamma = cross.length();
-        let lean = (alpha + beta + alpha * beta) / gamma;
-        (gamma > 1e-6 && lean < 1.0).then(|| (cross / gamma, lean))
+    /// The cones that hold its tangents and its normals.
+    pub(in crate::partition) fn cones(&self) -> Cones {
+        let legs = self.legs();
+        let tangents = legs.map(|legs| cone(&legs));
+        let normals = match tangents {
+            [Some(u), Some(v)] => product(u, v),
+            _ => None,
+        };
+        Cones { tangents, normals }
     }
 
-    /// Cones that hold its tangents along u and along v, as far as they fit half-spaces.
-    pub(in crate::partition) fn tangents(&self) -> [Option<(DVec3, f64)>; 2] {
-        let mut legs = Legs::default();
-        self.legs(&mut legs);
-        [cone(&legs.u), cone(&legs.v)]
+    /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
+    pub(in crate::partition) fn normals(&self) -> Option<(DVec3, f64)> {
+        self.cones().normals
     }
 
     /// The range of the slopes of the normals at its corners: how far they lean along a direction, against upright.
@@ -75,38 +75,58 @@ impl Patch {
         Some(range)
     }
 
-    /// Whether all its normals, turned to where they point up, point along a direction too, as far as the products of
-    /// its legs tell. `false` for rational patches.
-    pub(in crate::partition) fn all_lean(&self, along: DVec3, upright: DVec3) -> bool {
-        if self.rational {
-            return false;
-        }
-        let mut legs = Legs::default();
-        self.legs(&mut legs);
-        if legs.v.len() > LANES {
-            return false;
-        }
-        // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
-        let last = legs.v.len() - 1;
-        let lanes: [[f64; LANES]; 3] =
-            std::array::from_fn(|axis| std::array::from_fn(|k| legs.v[k.min(last)][axis]));
-        let used = legs.v.len().next_multiple_of(4).min(LANES);
-        let sign = legs.u[0].cross(legs.v[0]).dot(upright).signum();
-        let mut least = [f64::INFINITY; LANES];
+    /// How all products of its legs slope along a direction, if they all point up or all down.
+    pub(in crate::partition) fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
+        let legs = self.legs();
+        // Vanishing legs say nothing.
+        let [legs_u, legs_v] = legs.each_ref().map(|legs| {
+            let legs = legs.iter().filter(|leg| **leg != DVec3::ZERO).copied();
+            legs.collect::<SmallVec<[DVec3; LEGS]>>()
+        });
+        let sign = legs_u
+            .first()?
+            .cross(*legs_v.first()?)
+            .dot(upright)
+            .signum();
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let smaller = |a: f64, b: f64| if a < b { a } else { b };
-        for leg in &legs.u {
-            let (lean, rise) = (along.cross(*leg) * sign, upright.cross(*leg) * sign);
-            for (k, least) in least.iter_mut().take(used).enumerate() {
-                let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
-                let height = x * rise.x + y * rise.y + z * rise.z;
-                let reach = x * lean.x + y * lean.y + z * lean.z;
-                *least = smaller(smaller(height, reach), *least);
+        for some in legs_v.chunks(LEGS) {
+            // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
+            let last = some.len() - 1;
+            let lanes: [[f64; LEGS]; 3] =
+                std::array::from_fn(|axis| std::array::from_fn(|k| some[k.min(last)][axis]));
+            let mut least = [f64::INFINITY; LEGS];
+            let (mut low, mut high) = ([f64::INFINITY; LEGS], [f64::INFINITY; LEGS]);
+            for u in &legs_u {
+                let [rise, reach] = [upright, along].map(|d| sign * d.cross(*u));
+                for k in 0..LEGS {
+                    let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
+                    let height = x * rise.x + y * rise.y + z * rise.z;
+                    let slope = (x * reach.x + y * reach.y + z * reach.z) / height;
+                    least[k] = smaller(height, least[k]);
+                    low[k] = smaller(slope, low[k]);
+                    high[k] = smaller(-slope, high[k]);
+                }
+            }
+            // Written so that NaN fails too.
+            if !least.iter().all(|height| *height > 0.0) {
+                return None;
+            }
+            for (low, high) in low.into_iter().zip(high) {
+                range = [smaller(low, range[0]), -smaller(high, -range[1])];
             }
         }
-        least.iter().all(|least| *least > 0.0)
+        Some(range)
     }
 
-    fn legs(&self, legs: &mut Legs) {
+    /// Steps of which all tangents along u, and along v, are sums with positive factors.
+    pub(in crate::partition) fn legs(&self) -> Legs {
+        let mut legs = Legs::default();
+        let columns = self.columns;
+        if self.rational && !self.has_product_weights {
+            self.steps(&mut legs);
+            return legs;
+        }
         let leg = |from: usize, to: usize| {
             let [from, to] = [from, to].map(|at| {
                 let h = self.net[at];
@@ -118,13 +138,27 @@ impl Patch {
             });
             to - from
         };
-        let columns = self.columns;
-        legs.u
-            .extend((0..self.net.len() - columns).map(|at| leg(at, at + columns)));
+        legs[0].extend((0..self.net.len() - columns).map(|at| leg(at, at + columns)));
         for row in 0..self.rows {
             let first = row * columns;
-            legs.v
-                .extend((first..first + columns - 1).map(|at| leg(at, at + 1)));
+            legs[1].extend((first..first + columns - 1).map(|at| leg(at, at + 1)));
+        }
+        legs
+    }
+
+    /// From each control point to all of later rows, and of later columns.
+    fn steps(&self, legs: &mut Legs) {
+        let all = || (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| [i, j]));
+        for from in all() {
+            for to in all() {
+                let step = || self.control(to[0], to[1]) - self.control(from[0], from[1]);
+                if to[0] > from[0] {
+                    legs[0].push(step());
+                }
+                if to[1] > from[1] {
+                    legs[1].push(step());
+                }
+            }
         }
     }
 }
@@ -156,17 +190,77 @@ mod tests {
     }
 
     #[test]
-    fn all_normals_lean_only_where_the_sampled_ones_do_and_a_little_beyond_they_are_known_to() {
+    fn slopes_hold_those_of_all_sampled_normals_and_not_much_more() {
         let patch = bowl();
-        for along in [DVec3::X, DVec3::Y, DVec3::new(-1.0, 0.4, 0.1)] {
-            let [low, high] = sampled(&patch, along);
-            let width = high - low;
-            let beyond = |slope: f64| patch.all_lean(along - slope * DVec3::Z, DVec3::Z);
-            assert!(beyond(low - 0.5 * width));
-            assert!(!beyond(low + 1e-9));
-            let below = |slope: f64| patch.all_lean(slope * DVec3::Z - along, DVec3::Z);
-            assert!(below(high + 0.5 * width));
-            assert!(!below(high - 1e-9));
+        let directions = [DVec3::X, DVec3::new(-1.0, 0.4, 0.1)];
+        for upright in [DVec3::Z, -DVec3::Z] {
+            for along in directions {
+                let range = patch.slopes(along, upright).unwrap();
+                let sign = upright.z;
+                let mut sampled = sampled(&patch, along).map(|slope| sign * slope);
+                sampled.sort_by(f64::total_cmp);
+                let width = sampled[1] - sampled[0];
+                assert!(range[0] <= sampled[0] && sampled[1] <= range[1]);
+                assert!(range[0] > sampled[0] - width && range[1] < sampled[1] + width);
+            }
+        }
+    }
+
+    /// Directions of sampled tangents along u and v, and of products of tangents of different places.
+    fn sampled_directions_of(patch: &Patch) -> ([Vec<DVec3>; 2], Vec<DVec3>) {
+        let within = |[low, high]: [f64; 2], k: u32| low + (high - low) * f64::from(k) / 8.0;
+        let at = |k: u32| patch.first_jet(within(patch.u, k / 9), within(patch.v, k % 9));
+        let jets: Vec<_> = (0..81).map(at).collect();
+        let products = jets
+            .iter()
+            .flat_map(|a| jets.iter().map(|b| a.1.cross(b.2)));
+        let products = products.collect();
+        let tangents = [
+            jets.iter().map(|j| j.1).collect(),
+            jets.iter().map(|j| j.2).collect(),
+        ];
+        (tangents, products)
+    }
+
+    #[test]
+    fn cones_hold_all_tangents_and_products_of_rational_patches_too() {
+        let net: Vec<DVec3> = (0..9)
+            .map(|k| (f64::from(k / 3), f64::from(k % 3)))
+            .map(|(x, y)| DVec3::new(x + 0.1 * y * y, y - 0.2 * x, 0.1 * x * x - 0.07 * y * y))
+            .collect();
+        let products: Vec<f64> = (0..9)
+            .map(|k| [1.0, 0.4, 2.0][k / 3] * [1.0, 3.0, 0.7][k % 3])
+            .collect();
+        let any = vec![1.0, 5.0, 0.3, 0.2, 1.0, 4.0, 3.0, 0.5, 1.0];
+        for weights in [vec![1.0; 9], products, any] {
+            let patch = Patch::new(3, &net, &weights, [0.0, 1.0], [0.0, 1.0]);
+            let mut parts = vec![patch];
+            for along in [
+                crate::partition::patch::Along::U,
+                crate::partition::patch::Along::V,
+            ] {
+                let whole = parts.clone();
+                for part in whole {
+                    part.halve(along, |_| true, |half| parts.push(half));
+                }
+            }
+            let mut given = 0;
+            for part in &parts {
+                let cones = part.cones();
+                let (tangents, products) = sampled_directions_of(part);
+                let all = [cones.tangents[0], cones.tangents[1], cones.normals];
+                for (cone, sampled) in all.into_iter().zip([&tangents[0], &tangents[1], &products])
+                {
+                    let Some((axis, sine)) = cone else { continue };
+                    given += 1;
+                    for direction in sampled {
+                        let direction = direction.normalize();
+                        assert!(direction.dot(axis) > 0.0);
+                        assert!(direction.cross(axis).length() <= sine + 1e-12);
+                    }
+                }
+            }
+            assert!(given > 8, "{given}");
         }
     }
 
@@ -199,6 +293,6 @@ mod tests {
             [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
         let patch = Patch::new(2, &net, &[1.0; 4], [0.0, 1.0], [0.0, 1.0]);
         assert!(patch.corner_slopes(DVec3::X, DVec3::Z).is_none());
-        assert!(!patch.all_lean(DVec3::X, DVec3::Z));
+        assert!(patch.slopes(DVec3::X, DVec3::Z).is_none());
     }
 }
