@@ -27,8 +27,11 @@ const KNOWN: &[&[&str]] = &[
         "model/kinds/ellipsoid.rs",
         "model/kinds/horizon.rs",
         "model/kinds/lag.rs",
+        "model/kinds/lobe.rs",
+        "model/kinds/lobes.rs",
         "model/kinds/mod.rs",
         "model/kinds/point_bars.rs",
+        "model/kinds/scour.rs",
     ],
     &[
         "model/realisation.rs",
