@@ -296,3 +296,35 @@ fn what_is_drawn_lies_in_its_parent_and_the_domain_once_it_conforms() {
         assert!(z > -15.5 && z < 0.5, "{z}");
     }
 }
+
+#[test]
+fn the_general_fuse_makes_the_same_warped_bodies() {
+    let text = format!(
+        "{WARPED}{}",
+        r#"
+[[feature]]
+id = "nodule"
+kind = "ellipsoid"
+facies = "cement"
+conform = { to = "bent", depth = 12 }
+semi_axes = [40, 25, 2]
+center = [200, 150, 0]
+[[feature]]
+id = "lobe"
+kind = "lobe"
+facies = "sand"
+conform = { to = "bent", depth = -3 }
+length = 200
+width = 130
+thickness = 4
+azimuth_deg = 200
+center = [380, 250]
+"#
+    );
+    let one = built(&text, &[]);
+    let other = Built::new(from_text(&text, &[]), &Selection::default(), Engine::Occt).unwrap();
+    for name in ["scour", "nodule", "lobe"] {
+        let [a, b] = [&one, &other].map(|built| built.size(name));
+        assert!((a - b).abs() < 1e-6 * a, "{name}: {a} {b}");
+    }
+}

@@ -6,8 +6,11 @@
 
 use glam::DVec2;
 
+use super::body::Role;
 use super::horizon::{Horizon, HorizonError};
 use super::lobe::Lobe;
+use super::shell::{Shell, ShellError};
+use crate::nurbs::Surface;
 
 /// Cells of the grid of possible centres in a lobe's width.
 const CELLS: f64 = 20.0;
@@ -96,6 +99,23 @@ impl Region {
         });
         crossings.count() % 2 == 1
     }
+}
+
+/// A lobe filled down to a level (m): its cap, walls below the rim, and a flat base. A younger lobe takes nothing from older ones, so
+/// what of it lies in these may be anything; a base that follows them would run along them, hardly ever crossing, for nothing.
+pub fn filled(lobe: &Shell, level: f64) -> Result<Shell, ShellError> {
+    let mut sheets = Vec::with_capacity(lobe.sheets().len() * 3 / 2);
+    for (role, cap) in lobe.sheets() {
+        if *role != Role::Top {
+            continue;
+        }
+        let base = cap.mapped(|p| p.with_z(level))?;
+        let rim = cap.knots_u().domain().1;
+        let wall = Surface::ruled(&cap.isocurve_u(rim), &base.isocurve_u(rim))?;
+        sheets.push((*role, cap.clone()));
+        sheets.extend([base, wall].map(|sheet| (Role::Hidden, sheet)));
+    }
+    Shell::new(sheets)
 }
 
 /// Lobes that lie on each other and on a datum.

@@ -9,14 +9,16 @@ use super::keys::Keys;
 use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::conform::{Target, conform};
+use crate::features::horizon::Horizon;
 use crate::features::lobe::{Lobe, LobeDesign};
-use crate::features::stacking::{Pile, Region, Stack};
+use crate::features::shell::Shell;
+use crate::features::stacking::{Pile, Region, Stack, filled};
 use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::tree::{NodeId, Value};
-use crate::model::values::limits::{ANY, Limits, NOT_NEGATIVE};
+use crate::model::values::limits::{Limits, NOT_NEGATIVE};
 use crate::model::values::lobe::{LobeShape, thin_rims, with_shape};
 use crate::model::values::quantity::Quantity;
 
@@ -31,6 +33,13 @@ const MARGIN: f64 = 0.15;
 const WITHIN: f64 = 0.5;
 /// The same where the floor is exact, as a fraction of the thickness; and how far a lobe is sunk there.
 const LEAST: f64 = 0.005;
+
+/// How far below the lowest place of what all lobes lie on their hidden bases are, in thicknesses; and how much farther that of each
+/// younger one is.
+const BELOW: f64 = 0.6;
+const STAGGER: f64 = 0.01;
+/// Places along the sides of a lobe's plan among which the lowest one is looked for.
+const PLACES: usize = 20;
 
 const EROSION: Limits = Limits {
     low: 0.0,
@@ -50,8 +59,6 @@ pub struct LobesSpec {
     pub region: Option<Vec<[f64; 2]>>,
     /// How strongly lobes prefer low places: 0 is not at all.
     pub compensation: Quantity,
-    /// Elevation of what the oldest ones lie on; the base of their unit if absent.
-    pub base: Option<Quantity>,
     /// How deep each erodes what it lies on, as a fraction of its thickness.
     pub erosion: Quantity,
 }
@@ -67,9 +74,6 @@ pub(crate) struct LobesFile {
     /// How strongly lobes prefer low places, 0 (not at all) or more (20: always the lowest one); 5 if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) compensation: Option<Field<Any>>,
-    /// Elevation of what the oldest ones lie on, in metres; if left out, the surface of the horizon in whose unit they lie, or the domain's base.
-    #[schemars(with = "Option<Quantity>")]
-    pub(crate) base: Option<Field<Any>>,
     /// How deep each lobe erodes what it lies on, as a fraction of its thickness from 0 to 1; 0 (older ones stay whole) if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) erosion: Option<Field<Any>>,
@@ -116,7 +120,7 @@ impl Kind for LobesSpec {
             one: "lobe",
         },
         is_base: false,
-        placed_by: "set its `region` and `base`",
+        placed_by: "set its `region`",
         apart: "change `thickness` or `region` of {name} a little",
     };
 
@@ -131,7 +135,6 @@ impl Kind for LobesSpec {
         let shape = keys.lobe_shape(false);
         let region = keys.region(file.region);
         let compensation = keys.optional_quantity(file.compensation, "compensation", NOT_NEGATIVE);
-        let base = keys.optional_quantity(file.base, "base", ANY);
         let erosion = keys.optional_quantity(file.erosion, "erosion", EROSION);
         let or =
             |given: Option<Quantity>, default: f64| given.unwrap_or(Quantity::Constant(default));
@@ -140,7 +143,6 @@ impl Kind for LobesSpec {
             shape: shape?,
             region: region.ok()?,
             compensation: or(compensation.ok()?, COMPENSATION),
-            base: base.ok()?,
             erosion: or(erosion.ok()?, 0.0),
         })
     }
@@ -151,11 +153,7 @@ impl Kind for LobesSpec {
         };
         let compensation = draws.quantity(&self.compensation, "compensation")?;
         let erosion = draws.quantity(&self.erosion, "erosion")?;
-        let level = match &self.base {
-            Some(base) => Some(draws.quantity(base, "base")?),
-            None => None,
-        };
-        let datum = |at: DVec2| level.unwrap_or_else(|| unit.height(at.x, at.y));
+        let datum = |at: DVec2| unit.height(at.x, at.y);
         let region = self.region_in(site)?;
         let mut pile = Pile::new(&datum);
         let mut stack: Option<Stack> = None;
@@ -178,8 +176,16 @@ impl Kind for LobesSpec {
             for (key, value) in [("center.x", center.x), ("center.y", center.y)] {
                 draws.drawn.push((format!("{number}.{key}"), value));
             }
-            let (lobe, body) = laid(shape.with_center(center), &mut pile, erosion)
+            let (lobe, shell) = laid(shape.with_center(center), &mut pile, erosion)
                 .map_err(|message| ("impossible lobe", format!("lobe {number}: {message}")))?;
+            let body = if erosion > 0.0 {
+                shell
+            } else {
+                // Below the unit, each at a level of its own.
+                let depth = shape.thickness * (BELOW + STAGGER * number as f64);
+                filled(&shell, lowest(unit, lobe.plan()) - depth)
+                    .map_err(|error| ("impossible lobe", format!("lobe {number}: {error}")))?
+            };
             stack.lay(&lobe, |at| pile.relief(at));
             ends.push(draws.drawn.len());
             parts.push(Part {
@@ -189,7 +195,7 @@ impl Kind for LobesSpec {
                 } else {
                     TakesFrom::ParentItself
                 },
-                ..Part::of(body)
+                ..Part::of(Body::Shell(body))
             });
         }
         let drawn = draws.taken();
@@ -224,7 +230,7 @@ impl Kind for LobesSpec {
 
 /// A lobe laid on what is there, which it is part of from then on; and its body. As it is sunk into that, it is made as much thicker
 /// and wider: what stands out of a level floor is as thick and as wide as it shall be.
-fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, Body), String> {
+fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, Shell), String> {
     let plan = design.build().map_err(|error| error.to_string())?.plan();
     let margin = MARGIN * (plan[1] - plan[0]);
     let floor = pile
@@ -248,7 +254,17 @@ fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, 
     let tolerance = WITHIN * floor.lowered() / 2.0;
     let made = conform(&shell, &target, tolerance).map_err(|error| error.to_string())?;
     pile.lay(lobe, floor);
-    Ok((lobe, Body::Shell(made.shell)))
+    Ok((lobe, made.shell))
+}
+
+/// The lowest elevation of a surface over a plan (m), over a grid of places.
+fn lowest(surface: &Horizon, [low, high]: [DVec2; 2]) -> f64 {
+    let places = (0..=PLACES * PLACES).map(|k| {
+        let part = DVec2::new((k % PLACES) as f64, (k / PLACES) as f64) / (PLACES - 1) as f64;
+        low + (high - low) * part
+    });
+    let heights = places.map(|at| surface.height(at.x, at.y));
+    heights.fold(f64::INFINITY, f64::min)
 }
 
 impl LobesSpec {

@@ -158,11 +158,14 @@ pub(crate) fn thin_rims<'a>(
             return None;
         };
         let of = |role: Role| shell.sheets().iter().filter(move |sheet| sheet.0 == role);
-        let pairs = of(Role::Top).zip(of(Role::Base));
-        let angles = pairs.map(|((_, top), (_, base))| {
+        let mut bases = of(Role::Base);
+        let angles = of(Role::Top).map(|(_, top)| {
             let (u, (from, to)) = (top.knots_u().domain().1, top.knots_v().domain());
             let outward = |sheet: &Surface| sheet.derivatives(u, f64::midpoint(from, to), 1)[1][0];
-            outward(top).angle_between(outward(base))
+            let cap = outward(top);
+            // Against its base; of one that is filled down, against the horizontal.
+            let base = bases.next();
+            cap.angle_between(base.map_or(cap.with_z(0.0), |(_, base)| outward(base)))
         });
         angles.min_by(f64::total_cmp)
     };
