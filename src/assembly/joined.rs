@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::kernel::{Edge, Face, Topology};
 use super::splines::{EXACT, along_u, along_v, curve, spline};
 use crate::features::shell::Shell;
-use crate::nurbs::{Curve, Surface};
+use crate::nurbs::{Curve, KnotError, KnotVector, Surface, SurfaceError};
 
 /// Sides that are the same to this fraction of the shell's size are one edge, as they are for the enclosure.
 const SAME: f64 = 1e-9;
@@ -18,11 +18,17 @@ const BESIDE: [f64; 3] = [1e-5, 1e-6, 1e-7];
 const ASKED: [f64; 5] = [0.5, 0.31, 0.67, 0.13, 0.89];
 
 /// Why a shell is no topology.
-#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, PartialEq, thiserror::Error)]
 pub(crate) enum JoinedError {
     /// Two sides are one edge, but are not run through alike.
     #[error("the sheets {0} and {1} of its shell share a side that they run through differently")]
     Direction(usize, usize),
+    /// A sheet has no other knots.
+    #[error(transparent)]
+    Knots(#[from] KnotError),
+    /// A sheet with other knots is no surface.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// No place of a sheet tells which side of it is inside.
     #[error("neither side of the sheet {0} of its shell is certainly inside")]
     Flat(usize),
@@ -45,10 +51,30 @@ pub(crate) fn shell(shell: &Shell) -> Result<Topology, JoinedError> {
         sides: Vec::new(),
     };
     for (at, (_, sheet)) in shell.sheets().iter().enumerate() {
+        let sheet = &from_0_to_1(sheet)?;
         let reversed = !is_outward(shell, sheet, size).ok_or(JoinedError::Flat(at))?;
         joining.add(at, sheet, reversed)?;
     }
     Ok(joining.topology)
+}
+
+/// The same sheet with parameters from 0 to 1: two sheets that share an edge may run through it over different ranges.
+fn from_0_to_1(sheet: &Surface) -> Result<Surface, JoinedError> {
+    let unit = |knots: &KnotVector| {
+        let (first, last) = knots.domain();
+        let scaled = knots
+            .as_slice()
+            .iter()
+            .map(|knot| (knot - first) / (last - first));
+        KnotVector::new(knots.degree(), scaled.collect())
+    };
+    let (u, v) = (unit(sheet.knots_u())?, unit(sheet.knots_v())?);
+    let net = sheet.net().to_vec();
+    Ok(if sheet.is_rational() {
+        Surface::rational(u, v, net, sheet.weights().to_vec())?
+    } else {
+        Surface::new(u, v, net)?
+    })
 }
 
 /// Whether a sheet's normal points out of the shell.
@@ -125,10 +151,10 @@ impl Joining {
             .all(|part| place(&side, *part).distance(first) <= self.same);
         if !is_pole {
             for known in &self.sides {
-                if alike(&known.curve, false) && known.curve.domain() == side.domain() {
+                if alike(&known.curve, false) {
                     return Ok(known.edge);
                 }
-                if alike(&known.curve, true) || alike(&known.curve, false) {
+                if alike(&known.curve, true) {
                     return Err(JoinedError::Direction(known.sheet, sheet));
                 }
             }

@@ -54,6 +54,17 @@ fn the_kernel_takes_tubes_whose_ends_have_elevated_sides_and_lobes_with_poles() 
     let made = super::shell(&shell).unwrap();
     assert_eq!((made.vertices.len(), made.edges.len()), (8, 12));
     agree(&shell);
+    // The same between sheets whose parameters across have other ranges.
+    let shifted = Surface::new(
+        KnotVector::new(1, vec![-3.0, -3.0, 4.0, 4.0]).unwrap(),
+        tube.sheets[1].knots_v().clone(),
+        tube.sheets[1].net().to_vec(),
+    );
+    let shifted = Tube {
+        sheets: [tube.sheets[0].clone(), shifted.unwrap()],
+        ..tube
+    };
+    agree(&shifted.close().unwrap());
     let lobe = LobeDesign {
         center: DVec2::new(40.0, 30.0).extend(-5.0),
         length: 300.0,

@@ -84,6 +84,12 @@ fn misses(realisation: &Realisation, instances: &[&Instance]) -> Option<Remark> 
             let Some(parent) = parent_of(child) else {
                 return false;
             };
+            // Of a shell that shows nothing the parent's own surface is all that is seen.
+            if let Body::Shell(shell) = &child.body
+                && !shell.sheets().iter().any(|sheet| sheet.0.is_geological())
+            {
+                return false;
+            }
             let (low, high) = child.body.bounds();
             let (from, to) = parent.body.bounds();
             if !(low.cmple(to).all() && from.cmple(high).all()) {

@@ -233,3 +233,34 @@ fn what_is_no_section_is_refused_with_the_points_number() {
     };
     words(open, &["point 4, the last one", "ends where it begins"]);
 }
+
+#[test]
+fn the_sides_of_a_circle_are_at_its_knots_to_the_last_bit() {
+    let half = FRAC_1_SQRT_2;
+    let circle = OwnDesign {
+        close: Close::Closed,
+        weights: Some(vec![1.0, half, 1.0, half, 1.0, half, 1.0, half, 1.0]),
+        knots: Some(vec![
+            0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0,
+        ]),
+        ..design(
+            2,
+            &[
+                (-0.5, -0.5),
+                (-0.5, 0.0),
+                (0.0, 0.0),
+                (0.5, 0.0),
+                (0.5, -0.5),
+                (0.5, -1.0),
+                (0.0, -1.0),
+                (-0.5, -1.0),
+                (-0.5, -0.5),
+            ],
+        )
+    };
+    let one = OwnSection::new(&circle).unwrap();
+    assert!((one.area() - FRAC_PI_4).abs() < 1e-14);
+    assert_eq!(one.sides(), [0.0, 0.5]);
+    assert!(one.deepest().distance(DVec2::new(0.0, -1.0)) < 1e-12);
+    assert!(one.corners().is_empty());
+}
