@@ -11,7 +11,7 @@ mod checked;
 
 use clinothem::model::Property;
 use clinothem::model::properties::VolumeProperties;
-use clinothem::model::realisation::{Realisation, RealisationError};
+use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 use glam::{DMat3, DVec3};
 
@@ -330,24 +330,6 @@ plunge_deg = 20
         [500.0, 200.0, 10.0],
         1e-12,
     );
-}
-
-#[test]
-fn a_ring_has_no_mean_direction_and_is_refused_if_one_is_asked_for() {
-    let ring = "trajectory = { kind = \"parametric\", x = \"1000 + 300 * cos(t)\", y = \"500 + 300 * sin(t)\", range = [0, 6.283185307179586] }";
-    let text = format!("{MODEL}{CHANNELS}")
-        .replace("count = 50\n", "")
-        .replace("trajectory = { kind = \"line\", azimuth_deg = 30 }", ring);
-    let model = |overrides: &[&str]| {
-        let model = checked::from_text(&text, overrides);
-        Realisation::new(&model, &Selection::default())
-    };
-    assert!(model(&[]).is_ok());
-    let Err(RealisationError::Impossible { volume, reason }) = model(&[LAYERS]) else {
-        panic!("a direction of a ring");
-    };
-    assert_eq!(volume, "channel");
-    assert!(reason.contains("no mean direction"), "{reason}");
 }
 
 #[test]

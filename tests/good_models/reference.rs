@@ -73,7 +73,10 @@ fn the_reference_names_every_key_of_the_schema() {
     fn keys(value: &serde_json::Value, found: &mut Vec<String>) {
         match value {
             serde_json::Value::Object(object) => {
-                if let Some(serde_json::Value::Object(properties)) = object.get("properties") {
+                // Features have a key `properties` themselves: where that stands is no schema.
+                if let Some(serde_json::Value::Object(properties)) = object.get("properties")
+                    && !object.contains_key("id")
+                {
                     found.extend(properties.keys().cloned());
                 }
                 object.values().for_each(|inner| keys(inner, found));

@@ -173,6 +173,12 @@ fn meandering(draws: &mut Draws, block: &Block, at: usize, features: &mut Vec<Ta
     let several = !draws.plain && draws.chance(0.15);
     if several {
         set(&mut channel, "count", 2);
+        // Each is to have sizes and a top of its own.
+        for (key, size) in [("width", sizes.width), ("depth", sizes.depth)] {
+            let ends = numbers(&[0.9 * size, 1.1 * size]);
+            set(&mut channel, key, table([("uniform", ends.into())]));
+        }
+        channel.remove("top");
         if let Some(way) = channel.get_mut("trajectory").and_then(Value::as_table_mut) {
             way.remove("center");
             way.remove("phase");

@@ -166,9 +166,8 @@ impl Checker<'_> {
                 let [x, y, z] = axes;
                 Some(PropertySpec::Axes([x?, y?, z?]))
             }
-            Value::Table(_) if form.has_axes && has(&["dip", "strike", "normal"]) => {
-                self.layers(node, form)
-            }
+            // A normal alone is a distribution.
+            Value::Table(_) if form.has_axes && has(&["dip", "strike"]) => self.layers(node, form),
             Value::Table(_) if form.has_axes && has(&["horizontal", "vertical_fraction"]) => {
                 self.level_property(node, form)
             }

@@ -125,7 +125,7 @@ fn along(
     keys.extend(object(json!({
         "dip": about("Down the dip of the layers, or along the flow."),
         "strike": about("Along strike, or across the flow."),
-        "normal": about("Across the layers."),
+        "normal": normal(&item),
         "horizontal": about("Along x and y."),
         "vertical_fraction": generator.subschema_for::<Quantity>(),
     })));
@@ -137,6 +137,7 @@ fn along(
     let mut table = forms(description, &keys, &telling);
     table.extend(truncation());
     needs_base(&mut table);
+    tell_normal_from_normal(&mut table);
     table.extend(object(json!({
         "type": ["number", "array", "object"],
         "items": item, "minItems": 3, "maxItems": 3,
@@ -150,6 +151,39 @@ fn along(
         table.insert("minimum".to_owned(), json!(least));
     }
     table
+}
+
+/// What `normal` is: a value across the layers where there is a dip, else the name of a distribution.
+fn normal(item: &Value) -> Value {
+    let mut normal = item.clone();
+    normal["description"] = json!(
+        "With `dip` and `strike`: across the layers. Alone: the normal distribution of [mean, standard deviation]."
+    );
+    normal["type"] = json!(["number", "object", "array"]);
+    normal["items"] = json!({ "type": "number" });
+    normal["minItems"] = json!(2);
+    normal["maxItems"] = json!(2);
+    normal
+}
+
+/// Of the forms that `normal` tells, the distribution is the one without a dip.
+fn tell_normal_from_normal(table: &mut Map<String, Value>) {
+    let is_along = json!({ "required": ["dip"] });
+    if let Some(forms) = table.get_mut("oneOf").and_then(Value::as_array_mut) {
+        for form in forms {
+            if *form == json!({ "required": ["normal"] }) {
+                form["not"] = is_along.clone();
+            }
+        }
+    }
+    if let Some(Value::Object(together)) = table.get_mut("dependentRequired") {
+        together.remove("normal");
+    }
+    let only = |kinds: Value| json!({ "properties": { "normal": { "type": kinds } } });
+    let either = json!({
+        "if": is_along, "then": only(json!(["number", "object"])), "else": only(json!("array")),
+    });
+    table.insert("allOf".to_owned(), json!([either]));
 }
 
 /// A scale belongs to what has a base.
