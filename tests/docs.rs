@@ -206,13 +206,16 @@ fn tables() -> Vec<(&'static str, String)> {
 #[test]
 fn the_docs_tables_of_keys_are_those_of_the_schema() {
     let schema = schema();
-    for (place, found) in tables() {
+    let differing = tables().into_iter().filter_map(|(place, found)| {
         let expected = keys_of(&schema, place).table();
-        assert!(
-            found == expected,
-            "the table of {place} should be\n\n{expected}"
-        );
-    }
+        (found != expected).then(|| format!("{MARK}{place} -->\n{expected}"))
+    });
+    let differing: Vec<String> = differing.collect();
+    assert!(
+        differing.is_empty(),
+        "these tables should be\n\n{}",
+        differing.join("\n")
+    );
 }
 
 #[test]

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Bound, Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::side::{Borders, Ends, Side};

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Base, Frame, Made, Part, Site, TakesFrom};
 use crate::features::body::Body;
 use crate::features::side::Side;

@@ -3,8 +3,8 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Frame, Made, Part, Site, TakesFrom};
 use crate::features::body::Body;
 use crate::features::extrusion::ExtrusionError;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::levee::{LeveeDesign, LeveeError, MOST_TAPER, parts};

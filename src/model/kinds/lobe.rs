@@ -4,8 +4,8 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Frame, Made, Outcome, Part, Site};
 use crate::features::body::Body;
 use crate::features::lobe::{LobeDesign, SUNK};

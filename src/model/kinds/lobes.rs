@@ -4,8 +4,8 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::conform::{Target, conform};

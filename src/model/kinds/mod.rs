@@ -12,6 +12,7 @@ pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
+mod kind;
 pub(crate) mod lag;
 pub(crate) mod levee;
 pub(crate) mod lobe;
@@ -41,6 +42,7 @@ use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
+use kind::Kind;
 use lag::LagSpec;
 use levee::LeveeSpec;
 use lobe::LobeSpec;
@@ -54,64 +56,6 @@ use sheet::SheetSpec;
 use splay::SplaySpec;
 use trend::TrendSpec;
 
-/// A kind of feature: how its table is read, and what one instance of it is.
-pub(crate) trait Kind: Sized + Into<FeatureKind> {
-    /// What is known of it before its table is read.
-    const NATURE: Nature;
-
-    /// What features that refer to it find in what was made of it.
-    const GIVES: Gives = Gives::Nothing;
-
-    /// Whether it is bodies that may conform to a surface.
-    const CONFORMS: bool = false;
-
-    /// Its table, for editors.
-    fn schema(generator: &mut SchemaGenerator) -> Schema;
-
-    /// Reads and checks its table; `None`, with a defect, if something is wrong.
-    fn read(keys: &mut Keys<'_, '_>) -> Option<Self>;
-
-    /// Draws and builds one instance.
-    fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason>;
-
-    /// The facies that its table names besides `facies`.
-    fn more_facies(&self) -> Vec<usize> {
-        Vec::new()
-    }
-
-    /// The surface through the whole domain that it brings: it is drawn before anything is made.
-    fn base(&self) -> Option<Base<'_>> {
-        None
-    }
-
-    /// What bounds the unit above that it wants; its site has the unit then.
-    fn top(&self) -> Option<Bound> {
-        None
-    }
-
-    /// What it refers to; its site has what was made of that.
-    fn refers(&self) -> Vec<&Reference> {
-        Vec::new()
-    }
-
-    /// Whether it is placed by what its parent holds; its site has that then.
-    fn wants_interior(&self) -> bool {
-        false
-    }
-
-    /// What this is of the kind's volumes, of which there are several: what follows the feature's id and a dash.
-    fn volume_name(&self, rest: &str) -> Option<VolumeName> {
-        let _ = rest;
-        None
-    }
-
-    /// What is to be said of instances of the kind when they are meshed.
-    fn meshing(made: &[Outcome<'_>]) -> Option<String> {
-        let _ = made;
-        None
-    }
-}
-
 /// What the program's lists need of a kind, without its type.
 pub(crate) struct Entry {
     pub(crate) nature: Nature,
@@ -122,8 +66,8 @@ pub(crate) struct Entry {
     pub(crate) meshing: fn(&[Outcome<'_>]) -> Option<String>,
 }
 
-const fn entry<K: Kind>() -> Entry {
-    fn read<K: Kind>(keys: &mut Keys<'_, '_>) -> Option<FeatureKind> {
+const fn entry<K: Kind + Into<FeatureKind>>() -> Entry {
+    fn read<K: Kind + Into<FeatureKind>>(keys: &mut Keys<'_, '_>) -> Option<FeatureKind> {
         K::read(keys).map(Into::into)
     }
     Entry {

@@ -3,8 +3,8 @@
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Frame, Made, Part, Site, TakesFrom, VolumeName};
 use crate::features::bends::bends;
 use crate::features::body::Body;

@@ -6,8 +6,8 @@ use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::Kind;
 use super::keys::Keys;
+use super::kind::Kind;
 use super::made::{Made, Site};
 use super::placed::{Placed, told};
 use crate::features::body::Body;
