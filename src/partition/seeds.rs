@@ -17,7 +17,7 @@ use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
-const LEAST: f64 = 1e-5;
+const LEAST: f64 = 2e-7;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -145,7 +145,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST || self.undecided >= ENOUGH {
+        if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
