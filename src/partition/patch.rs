@@ -300,3 +300,34 @@ fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone 
     net.iter()
         .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_is_the_patch_over_its_rectangle() {
+        let net: Vec<DVec3> = (0..12)
+            .map(|k| (f64::from(k / 3), f64::from(k % 3)))
+            .map(|(x, y)| DVec3::new(x + 0.1 * y * y, y - 0.2 * x, 0.3 * x * x - 0.7 * x * y))
+            .collect();
+        for weight in [1.0, 1.5] {
+            let weights: Vec<f64> = (0..12).map(|k| if k == 4 { weight } else { 1.0 }).collect();
+            let whole = Patch::new(4, &net, &weights, [2.0, 3.0], [-1.0, 1.0]);
+            let part = whole.part([2.25, 2.5], [-0.75, 1.0]);
+            for (u, v) in [
+                (2.25, -0.75),
+                (2.3, 0.1),
+                (2.5, 1.0),
+                (2.5, -0.75),
+                (2.4, 0.9),
+            ] {
+                assert!(part.point(u, v).distance(whole.point(u, v)) < 1e-14);
+            }
+            // Its corners are control points.
+            let corners = [part.control(0, 0), part.control(3, 2)];
+            let places = [whole.point(2.25, -0.75), whole.point(2.5, 1.0)];
+            assert!((0..2).all(|k| corners[k].distance(places[k]) < 1e-14));
+        }
+    }
+}
