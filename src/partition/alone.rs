@@ -18,6 +18,7 @@ use glam::DVec3;
 
 use super::facet::Facet;
 use super::hermite::{self, Branch, End, Node};
+use super::patch::Cones;
 
 /// How far beyond a patch its border still is, as a fraction of its parameters: curves may run along borders.
 pub(super) const BORDER: f64 = 1e-9;
@@ -48,8 +49,22 @@ pub(super) struct Chords {
 impl Chords {
     /// Of two patches, and of a little around them as a fraction of their parameters; `None` if no parameter is known to be one.
     pub(super) fn new(a: &Facet<'_>, b: &Facet<'_>, slack: f64) -> Option<Self> {
-        let is_monotone = by_cones([a, b], slack);
+        let is_monotone = by_cones([a.cones, b.cones], slack);
         Self::with(is_monotone, [a, b], slack)
+    }
+
+    /// Of two patches one of which goes on behind a border, where one of the four parameters ends: with the cones of all of both, and
+    /// how far it goes on.
+    pub(super) fn going_on(
+        [a, b]: [&Facet<'_>; 2],
+        cones: [Cones; 2],
+        parameter: usize,
+        end: f64,
+    ) -> Option<Self> {
+        let mut chords = Self::with(by_cones(cones, BORDER), [a, b], BORDER)?;
+        let [low, high] = &mut chords.ranges[parameter];
+        (*low, *high) = (low.min(end), high.max(end));
+        Some(chords)
     }
 
     /// The same by slopes: for sheets that are nearly parallel.
@@ -206,13 +221,13 @@ fn wider(slack: f64) -> f64 {
     if slack > BORDER { WIDER } else { 1.0 }
 }
 
-fn by_cones(facets: [&Facet<'_>; 2], slack: f64) -> [bool; 4] {
+fn by_cones(cones: [Cones; 2], slack: f64) -> [bool; 4] {
     let wider = wider(slack);
     std::array::from_fn(|k| {
         let (side, axis) = (k / 2, k % 2);
-        let tangent = facets[side].cones.tangents[1 - axis];
-        let normal = facets[1 - side].cones.normals;
-        let own = facets[side].cones.normals;
+        let tangent = cones[side].tangents[1 - axis];
+        let normal = cones[1 - side].normals;
+        let own = cones[side].normals;
         match (own, tangent, normal) {
             (Some(_), Some((tangent, width)), Some((normal, lean))) => {
                 tangent.dot(normal).abs() > wider * (width + lean) + ROUNDING

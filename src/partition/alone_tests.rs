@@ -311,6 +311,40 @@ fn nearly_parallel_sheets_that_cross_once_are_certified() {
     assert!(found.certain > 0);
 }
 
+/// The first sheet is one polynomial, in two patches that join at x = 0.5.
+fn cut_in_the_middle(mut scene: Scene) -> Scene {
+    let whole = &scene.sheets[0].surface;
+    let cut = whole.insert_knot_u(0.5, 1).unwrap();
+    scene.sheets[0] = Sheet::new(cut, 1).unwrap();
+    scene
+}
+
+#[test]
+fn a_curve_along_the_border_of_patches_is_certified_there() {
+    // It passes from one patch to the other one twice, and is never farther than some 1e-8 from their border.
+    let scene = cut_in_the_middle(over_level(|x, y| {
+        3e-3 * (x - 0.5 + 1e-7 * (y - 0.3) * (y - 0.7))
+    }));
+    let found = scene.found();
+    assert_eq!((found.branches.len(), found.doubts), (1, 0));
+    assert!(found.certain < 20, "{}", found.certain);
+}
+
+#[test]
+fn of_two_curves_beside_the_border_of_patches_none_is_hidden() {
+    for apart in [1e-1, 1e-2, 1e-3] {
+        for beside in [-1.0, -0.5, -1e-6, 0.0] {
+            let scene = cut_in_the_middle(over_level(|x, y| {
+                let x = x - 0.5 - beside * apart + 1e-7 * (y - 0.3) * (y - 0.7);
+                0.1 * x * (x - apart)
+            }));
+            let found = scene.found();
+            let is_told = found.doubts > 0 || found.branches.len() == 2;
+            assert!(is_told, "{apart} {beside}: {}", found.branches.len());
+        }
+    }
+}
+
 fn heights(size: f64) -> impl Strategy<Value = Heights> {
     prop::array::uniform16(-size..size)
 }

@@ -199,11 +199,55 @@ impl Patch {
         }
     }
 
-    fn half_nets(&self, along: Along) -> [Net; 2] {
-        let (lines, degree, line_step, step) = match along {
+    /// The part of it over a rectangle of its parameters; of its box nothing is known.
+    pub(super) fn part(&self, u: [f64; 2], v: [f64; 2]) -> Self {
+        let mut net = self.net.clone();
+        let local = |x: f64, [low, high]: [f64; 2]| (x - low) / (high - low);
+        self.cut(&mut net, Along::U, u.map(|u| local(u, self.u)));
+        self.cut(&mut net, Along::V, v.map(|v| local(v, self.v)));
+        Self {
+            net,
+            u,
+            v,
+            bounds: Bounds::EMPTY,
+            ..*self
+        }
+    }
+
+    /// Cuts a net to a range of one parameter, in fractions of its own: what lies before its end, and of that what lies behind
+    /// its start (de Casteljau).
+    fn cut(&self, net: &mut Net, along: Along, [start, end]: [f64; 2]) {
+        let (lines, degree, line_step, step) = self.lines(along);
+        for line in 0..lines {
+            let at = |k: usize| line * line_step + k * step;
+            let mut work = [DVec4::ZERO; ORDER];
+            for (k, h) in work.iter_mut().take(degree + 1).enumerate() {
+                *h = net[at(k)];
+            }
+            // By blossoms: with `round` arguments at the end and the others at the start.
+            for round in 0..=degree {
+                let mut row = work;
+                for k in 0..degree {
+                    let to = if k < round { end } else { start };
+                    for i in 0..degree - k {
+                        row[i] = row[i].lerp(row[i + 1], to);
+                    }
+                }
+                net[at(round)] = row[0];
+            }
+        }
+    }
+
+    /// How the control points along a parameter lie in the net: lines, degree, and the steps from line to line and along one.
+    fn lines(&self, along: Along) -> (usize, usize, usize, usize) {
+        match along {
             Along::U => (self.columns, self.rows - 1, 1, self.columns),
             Along::V => (self.rows, self.columns - 1, self.columns, 1),
-        };
+        }
+    }
+
+    fn half_nets(&self, along: Along) -> [Net; 2] {
+        let (lines, degree, line_step, step) = self.lines(along);
         let mut low = Net::from_slice(&self.net);
         let mut high = Net::from_slice(&self.net);
         for line in 0..lines {
@@ -255,4 +299,35 @@ fn are_products(weights: &[f64], rows: usize) -> bool {
 fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {
     net.iter()
         .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_is_the_patch_over_its_rectangle() {
+        let net: Vec<DVec3> = (0..12)
+            .map(|k| (f64::from(k / 3), f64::from(k % 3)))
+            .map(|(x, y)| DVec3::new(x + 0.1 * y * y, y - 0.2 * x, 0.3 * x * x - 0.7 * x * y))
+            .collect();
+        for weight in [1.0, 1.5] {
+            let weights: Vec<f64> = (0..12).map(|k| if k == 4 { weight } else { 1.0 }).collect();
+            let whole = Patch::new(4, &net, &weights, [2.0, 3.0], [-1.0, 1.0]);
+            let part = whole.part([2.25, 2.5], [-0.75, 1.0]);
+            for (u, v) in [
+                (2.25, -0.75),
+                (2.3, 0.1),
+                (2.5, 1.0),
+                (2.5, -0.75),
+                (2.4, 0.9),
+            ] {
+                assert!(part.point(u, v).distance(whole.point(u, v)) < 1e-14);
+            }
+            // Its corners are control points.
+            let corners = [part.control(0, 0), part.control(3, 2)];
+            let places = [whole.point(2.25, -0.75), whole.point(2.5, 1.0)];
+            assert!((0..2).all(|k| corners[k].distance(places[k]) < 1e-14));
+        }
+    }
 }

@@ -17,7 +17,7 @@ use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
-const LEAST: f64 = 1e-5;
+const LEAST: f64 = 2e-7;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -28,6 +28,10 @@ const STEEP: f64 = 0.1;
 const FLAT: f64 = 0.35;
 /// A place this fraction of the patches' size beside them is on them.
 const BESIDE: f64 = 0.02;
+/// By this fraction of a patch's size another one beside it is looked at, too, where a curve runs along their border …
+const STRIP: f64 = 0.25;
+/// … if normals lean less than this sine.
+const STRAIGHT: f64 = 0.05;
 /// An attempt to land is given up when it leaves the patches by this fraction of their size.
 const REACH: f64 = 0.5;
 /// While patches are halved their sizes are kept within this factor.
@@ -145,7 +149,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST || self.undecided >= ENOUGH {
+        if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
@@ -156,6 +160,10 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if is_flat {
             match self.flat(a, b, is_small) {
                 Verdict::Apart | Verdict::Known => return,
+                Verdict::Doubtful if self.runs_along(a, b) => {
+                    self.certain += 1;
+                    return;
+                }
                 Verdict::Doubtful if is_small => {
                     self.doubt(a);
                     return;
@@ -165,7 +173,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         if is_small {
             let guess = linear::guess(&a.patch, &b.patch, BESIDE);
-            let place = self.locate(a, b, &guess);
+            let place = self.locate(a, b, &guess, BESIDE);
             let is_near = place.and_then(|place| self.follow(place)).is_some();
             if !is_near && !self.passes_by(a, b) {
                 let [u, v] = a.patch.middle();
@@ -223,7 +231,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return Verdict::Open;
         }
         let place = match guess {
-            Guess::Meet(..) => self.locate(a, b, &guess),
+            Guess::Meet(..) => self.locate(a, b, &guess, BESIDE),
             _ => None,
         };
         let by_slopes = || Chords::of_slopes(frame.as_ref()?, a, b, beside);
@@ -249,6 +257,63 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
+    /// Whether a curve along a border of one of two patches, on either side of it, is all that the two have in common: with a
+    /// strip of the sheet behind that border it never leaves through it.
+    fn runs_along(&mut self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+        if !(a.lean() < STRAIGHT && b.lean() < STRAIGHT) {
+            return false;
+        }
+        let guess = linear::guess(&a.patch, &b.patch, STRIP);
+        let place = self.locate(a, b, &guess, STRIP);
+        let Some((branch, t)) = place.and_then(|place| self.follow(place)) else {
+            return false;
+        };
+        let ranges = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
+        let q = self.branches[branch].value(t);
+        (0..4).any(|k| {
+            let [low, high] = ranges[k];
+            let reach = STRIP * (high - low);
+            [(low, -reach), (high, reach)]
+                .into_iter()
+                .any(|(border, reach)| {
+                    (q[3 + k] - border).abs() <= reach.abs()
+                        && self.is_alone_beyond([a, b], k, [border, border + reach], (branch, t))
+                })
+        })
+    }
+
+    /// Whether a curve is alone on two patches and on a strip of a sheet behind a border, where one of the parameters ends.
+    fn is_alone_beyond(
+        &self,
+        facets: [&Facet<'_>; 2],
+        parameter: usize,
+        [border, end]: [f64; 2],
+        (branch, t): (usize, f64),
+    ) -> bool {
+        let (side, axis) = (parameter / 2, parameter % 2);
+        let own = &facets[side].patch;
+        let mut middle = own.middle();
+        middle[axis] = 0.5 * (border + end);
+        let beside = self.shapes[side].patch_at(middle[0], middle[1]);
+        let mut ranges = [own.u, own.v];
+        let whole = [beside.u, beside.v][axis];
+        let end = end.clamp(whole[0], whole[1]);
+        ranges[axis] = [border.min(end), border.max(end)];
+        // The next patch begins at the border, or this one is a part of it; behind the sheet's own border there is none.
+        if !(whole[0] <= ranges[axis][0]
+            && ranges[axis][1] <= whole[1]
+            && ranges[axis][0] < ranges[axis][1])
+        {
+            return false;
+        }
+        let strip = beside.part(ranges[0], ranges[1]);
+        let mut cones = facets.map(|facet| facet.cones);
+        cones[side] = own.cones_with(&strip);
+        let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
+        Chords::going_on(facets, cones, parameter, end)
+            .is_some_and(|chords| chords.has_only(&self.branches[branch], t, lengths))
+    }
+
     /// Counts a pair of the smallest patches of which not all is known.
     fn doubt(&mut self, a: &Facet<'_>) {
         let [u, v] = a.patch.middle();
@@ -256,10 +321,10 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
-    fn locate(&self, a: &Facet<'_>, b: &Facet<'_>, guess: &Guess) -> Option<Place> {
+    fn locate(&self, a: &Facet<'_>, b: &Facet<'_>, guess: &Guess, beside: f64) -> Option<Place> {
         let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
         let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
-        let within = grown(BESIDE);
+        let within = grown(beside);
         // Rather a node well inside than one beside.
         let mut beside = None;
         for (at, branch) in self.branches.iter().enumerate() {

@@ -27,16 +27,30 @@ pub(in crate::partition) struct Cones {
     pub(in crate::partition) normals: Option<(DVec3, f64)>,
 }
 
-impl Patch {
-    /// The cones that hold its tangents and its normals.
-    pub(in crate::partition) fn cones(&self) -> Cones {
-        let legs = self.legs();
+impl Cones {
+    fn of(legs: Legs) -> Self {
         let tangents = legs.map(|legs| cone(&legs));
         let normals = match tangents {
             [Some(u), Some(v)] => product(u, v),
             _ => None,
         };
-        Cones { tangents, normals }
+        Self { tangents, normals }
+    }
+}
+
+impl Patch {
+    /// The cones that hold its tangents and its normals.
+    pub(in crate::partition) fn cones(&self) -> Cones {
+        Cones::of(self.legs())
+    }
+
+    /// The cones that hold those of it and of another patch of its sheet.
+    pub(in crate::partition) fn cones_with(&self, other: &Self) -> Cones {
+        let [mut u, mut v] = self.legs();
+        let [more_u, more_v] = other.legs();
+        u.extend(more_u);
+        v.extend(more_v);
+        Cones::of([u, v])
     }
 
     /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
