@@ -10,9 +10,9 @@ mod assembled;
 
 use assembled::{Built, from_text, source, without};
 use clinothem::assembly::Engine;
+use clinothem::model::Model;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::Model;
 use glam::DVec3;
 
 /// A straight channel with its top 6 m below the block's, and a levee.
