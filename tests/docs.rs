@@ -184,6 +184,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         "a join" => defined("Join"),
         "a net" => defined("Net"),
         "a section" => defined("Section"),
+        "a junction" => defined("Joins"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

@@ -29,6 +29,7 @@ fn the_examples_of_the_reference_are_good() {
         kinds,
         [
             "meander-belt",
+            "channel",
             "ellipsoid",
             "horizon",
             "clinoforms",
@@ -36,9 +37,14 @@ fn the_examples_of_the_reference_are_good() {
             "lag",
             "plug",
             "point-bars",
-            "trend",
+            "scour",
+            "lobe",
+            "lobes",
             "sheet",
-            "body"
+            "body",
+            "trend",
+            "levee",
+            "splay"
         ]
     );
     // Lines that stand for themselves are put into the whole example, one at a time.
