@@ -221,7 +221,7 @@ facies = "cement"
 removed_by = []
 conform = {{ to = "clino-2", depth = 3 }}
 semi_axes = [14, 8, 0.8]
-center = [380, 60, 0]
+center = [320, 60, 0]
 "#
     )
 }
@@ -254,7 +254,7 @@ fn a_scour_runs_down_a_clinoform_and_a_concretion_lies_below_one() {
         let off = (one.size("ramp/concretion") - volume).abs();
         let plan = PI * 14.0 * 8.0;
         assert!(off <= 2.0 * deviation(&one, "concretion") * plan + 1e-6 * volume);
-        // Its middle is 3 m below the sheet: 260 m along it, less what the shoreline's ellipse takes at its strike.
+        // Its middle is 3 m below the sheet: about a third of the way down it.
         let (low, high) = body(&one, "ramp/concretion").bounds();
         let z = 0.5 * (low.z + high.z);
         assert!(z < -3.0 && z > -15.0, "{z}");
@@ -273,7 +273,7 @@ fn bodies_stay_where_they_are_when_what_they_conform_to_is_left_out() {
 
 #[test]
 fn what_is_drawn_lies_in_its_parent_and_the_domain_once_it_conforms() {
-    let text = on_clinoforms("").replace("center = [380, 60, 0]", "count = 20");
+    let text = on_clinoforms("").replace("center = [320, 60, 0]", "count = 20");
     let made = Realisation::new(&from_text(&text, &[]), &Selection::default()).unwrap();
     let own = made
         .instances
