@@ -175,8 +175,8 @@ impl Checker<'_> {
         })
     }
 
-    fn net_name(&self, node: NodeId, name: String, what: &str, names: &[String]) -> Option<String> {
-        if !is_id(&name) {
+    fn net_name(&self, node: NodeId, name: &str, what: &str, names: &[String]) -> Option<String> {
+        if !is_id(name) {
             self.reader.wrong(
                 node,
                 format!("the name {} of {what} is no name", quoted(name)),
