@@ -158,35 +158,47 @@ impl NetDesign {
 /// How different the speeds on both sides of a knot may be for a surface that has no kink there, as a fraction of them.
 const NO_KINK: f64 = 1e-9;
 
-/// The parts of a surface between its kinks: knots that are there as often as the degree says, at which its speed jumps.
+/// The parts of a surface between its kinks: knots that are there as often as the degree says, at which its speed jumps somewhere.
 pub fn smooth_parts(surface: &Surface) -> Result<Vec<Surface>, NetError> {
+    // All of the surface is divided at each, so that parts have whole sides in common.
+    let along_u = kinks_along_v(&surface.transposed())?;
     let mut parts = Vec::new();
-    for strip in parts_along_v(surface)? {
-        let own = parts_along_v(&strip.transposed())?;
+    for strip in divided_along_v(surface, &kinks_along_v(surface)?)? {
+        let own = divided_along_v(&strip.transposed(), &along_u)?;
         parts.extend(own.iter().map(Surface::transposed));
     }
     Ok(parts)
 }
 
-/// The parts between the kinks along v.
-fn parts_along_v(surface: &Surface) -> Result<Vec<Surface>, NetError> {
+/// The v at which a surface has kinks.
+fn kinks_along_v(surface: &Surface) -> Result<Vec<f64>, NetError> {
     let knots = surface.knots_v();
     let all = knots.distinct();
-    let mut parts = Vec::new();
-    let mut rest = surface.clone();
+    let mut kinks = Vec::new();
     for (knot, count) in &all[1..all.len() - 1] {
         if *count < knots.degree() {
             continue;
         }
-        let (before, after) = rest.split_v(*knot)?;
+        let (before, after) = surface.split_v(*knot)?;
         let ends = [end_speeds(&before, true), end_speeds(&after, false)];
         let greatest = ends.iter().flatten().map(|speed| speed.length());
         let most = NO_KINK * greatest.fold(0.0, f64::max);
         let mut pairs = ends[0].iter().zip(&ends[1]);
         if pairs.any(|(one, other)| one.distance(*other) > most) {
-            parts.push(before);
-            rest = after;
+            kinks.push(*knot);
         }
+    }
+    Ok(kinks)
+}
+
+/// The parts of a surface between some v.
+fn divided_along_v(surface: &Surface, at: &[f64]) -> Result<Vec<Surface>, NetError> {
+    let mut parts = Vec::new();
+    let mut rest = surface.clone();
+    for v in at {
+        let (before, after) = rest.split_v(*v)?;
+        parts.push(before);
+        rest = after;
     }
     parts.push(rest);
     Ok(parts)

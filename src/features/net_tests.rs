@@ -32,7 +32,7 @@ fn a_net_is_the_surface_of_its_degrees() {
     let surface = one.build().unwrap();
     // Of degree 1 it passes through its control points.
     assert_eq!(surface.point(1.0 / 3.0, 0.5), DVec3::new(1.0, 2.0, 9.0));
-    // Bent at every knot but where rows of points are in one line: the hump is at the second of three inner columns.
+    // Bent at every knot somewhere, and divided there all over: parts have whole sides in common.
     assert_eq!(smooth_parts(&surface).unwrap().len(), 12);
     let level = NetDesign {
         points: vec![
