@@ -158,6 +158,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
             "count",
             "level",
             "parent",
+            "along",
             "facies",
             "properties",
         ];

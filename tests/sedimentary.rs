@@ -25,7 +25,7 @@ use clinothem::features::profile::Profile;
 use clinothem::features::reach::Reach;
 use clinothem::features::scour::{PitAndWing, ScourDesign, constant_area};
 use clinothem::features::shell::Shell;
-use clinothem::features::splay::{SplayDesign, breach};
+use clinothem::features::splay::{Breaches, SplayDesign};
 use clinothem::features::trajectory::Trajectory;
 use clinothem::partition::{Label, Region};
 use glam::{DVec2, DVec3};
@@ -266,6 +266,7 @@ fn levees_of_all_bends_a_splay_and_a_mouth_bar_are_proven_against_their_channel(
         width: Profile::Constant(50.0),
         height: Profile::Constant(0.44),
         depth: Profile::Constant(1.32),
+        taper: 2,
         toe: 0.3,
         bend_asymmetry: 0.3,
         thinning: 0.3,
@@ -278,11 +279,12 @@ fn levees_of_all_bends_a_splay_and_a_mouth_bar_are_proven_against_their_channel(
     }
     let splay = SplayDesign {
         at: 0.5,
-        bank: breach(&reach, 0.5).unwrap().1,
+        bank: Breaches::of(&reach, &|_| true).unwrap().at(0.5).1,
         angle: 60_f64.to_radians(),
         length: 250.0,
         width: 125.0,
         thickness: 2.2,
+        erosion: 0.1,
         taper: 0.4,
         skew: 0.7,
     };
@@ -309,6 +311,7 @@ fn a_straight_channels_levee_is_its_section_times_its_length() {
         width: Profile::Constant(50.0),
         height: Profile::Constant(0.44),
         depth: Profile::Constant(1.32),
+        taper: 2,
         toe: 0.3,
         bend_asymmetry: 0.3,
         thinning: 0.0,

@@ -147,12 +147,14 @@ fn pieces(
     plan: &AssemblyPlan,
 ) -> Vec<Piece> {
     let mut pieces = Vec::with_capacity(solids.solids().len());
+    let of_bodies = limits(plan);
     for (index, (solid, found)) in solids.solids().iter().zip(boxes).enumerate() {
         let signed = |(face, reversed): &(usize, bool)| {
             let flux = integrals[*face].flux;
             if *reversed { -flux } else { flux }
         };
-        let limits = limits(plan, solid.owner);
+        let all = (plan.low(), plan.high());
+        let limits = of_bodies.get(&solid.owner).copied().unwrap_or(all);
         pieces.push(Piece {
             volume: solid.owner,
             solid: index,
@@ -174,12 +176,15 @@ fn pieces(
     pieces
 }
 
-/// Where a volume can be: within the domain, and within its body's box. The kernel's boxes
+/// Where volumes with bodies can be: within the domain, and within the boxes of their bodies. The kernel's boxes
 /// hold whole surfaces, so they reach beyond both.
-fn limits(plan: &AssemblyPlan, volume: usize) -> (DVec3, DVec3) {
-    let body = plan.bodies.iter().find(|body| body.volume == volume);
-    let (low, high) = body.map_or((plan.low(), plan.high()), |body| {
-        plan.shells[body.shell].body.bounds()
-    });
-    (low.max(plan.low()), high.min(plan.high()))
+fn limits(plan: &AssemblyPlan) -> BTreeMap<usize, (DVec3, DVec3)> {
+    let mut limits = BTreeMap::new();
+    for body in &plan.bodies {
+        let (from, to) = plan.shells[body.shell].body.bounds();
+        let own = (from.max(plan.low()), to.min(plan.high()));
+        let (low, high) = limits.entry(plan.rules.whole(body.volume)).or_insert(own);
+        (*low, *high) = (low.min(own.0), high.max(own.1));
+    }
+    limits
 }

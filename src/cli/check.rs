@@ -33,6 +33,8 @@ struct Line {
     facies: String,
     instances: usize,
     parent: Option<String>,
+    /// The feature that it goes along.
+    along: Option<String>,
     /// Whether there is but one of the parent, a horizon's unit.
     parent_is_unit: bool,
     /// The feature whose volume it divides, if that is all that it may take.
@@ -66,7 +68,8 @@ fn remarks(loaded: &Loaded) -> Result<Vec<String>, Failure> {
 fn resolve(volumes: &[VolumeRules], rules: &Rules) -> Vec<Line> {
     let mut features: Vec<&str> = Vec::new();
     let mut of: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    for (volume, rules) in volumes.iter().enumerate().skip(1) {
+    let wholes = volumes.iter().enumerate().skip(1);
+    for (volume, rules) in wholes.filter(|(_, rules)| rules.piece_of.is_none()) {
         let own = of.entry(&rules.feature).or_default();
         if own.is_empty() {
             features.push(&rules.feature);
@@ -147,6 +150,7 @@ impl Resolved<'_> {
             }
         }
         let parent = volumes[body].parent.map(|parent| &volumes[parent]);
+        let along = volumes[body].along.map(|along| &volumes[along]);
         Line {
             name: feature.to_owned(),
             kind: volumes[body].kind.clone(),
@@ -154,6 +158,7 @@ impl Resolved<'_> {
             facies: facies.join(", "),
             instances: own.len(),
             parent: parent.map(|parent| parent.feature.clone()),
+            along: along.map(|along| along.feature.clone()),
             parent_is_unit: parent.is_some_and(|parent| parent.kind == "horizon"),
             divides: volumes[body].from.map(|from| volumes[from].feature.clone()),
             removes,
@@ -169,9 +174,13 @@ fn paragraph(line: &Line) -> String {
         let each = if line.parent_is_unit { "" } else { "each " };
         format!(", in {each}{parent}")
     });
+    let along = line
+        .along
+        .as_ref()
+        .map_or(String::new(), |along| format!(", along each {along}"));
     let _ = writeln!(
         out,
-        "\n{} ({}, level {}, {}): {} volume{}{parent}",
+        "\n{} ({}, level {}, {}): {} volume{}{parent}{along}",
         line.name,
         line.kind,
         line.level,
@@ -241,6 +250,7 @@ fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Valu
                 "facies": line.facies,
                 "volumes": line.instances,
                 "parent": line.parent,
+                "along": line.along,
                 "divides": line.divides,
                 "removes": line.removes,
                 "spares": spared,

@@ -3,17 +3,17 @@
 //! The section, on one side, with o the distance outwards from the crest: the top falls from the crest to the toe as
 //!
 //! ```text
-//! y = h_a [(1 − t)(1 − o/w)² + t (1 − o/w)]
+//! y = h_a [(1 − t)(1 − o/w)^P + t (1 − o/w)]
 //! ```
 //!
-//! (an exact parabola), the base is straight from `h_b` below the channel's top under the crest to the toe, and the inner side
+//! (exact, of degree P), the base is straight from `h_b` below the channel's top under the crest to the toe, and the inner side
 //! goes down from the crest, through the level of the channel's top inside of the rim, to the base inside of the channel,
 //! which takes what lies there. The crest stands outside of the rim: *on* it three sheets would share an edge. The toe is a
 //! little below the channel's top, on every body by another amount: of two bodies with toes at one level the edges would
 //! cross.
 //!
 //! Levees are wider on outer banks, and on inner ones narrow enough never to fold: with r = w + W/2 the width is
-//! (r⁻⁴ + (κ/0.8)⁴)^(−1/4) − W/2. Meanders lie on each other's levees, so there is **one body for each side and bend**: later
+//! (r⁻⁴ + (κ/0.8)⁴)^(−1/4) − W/2. Where it is narrower than on a straight its base is as much less deep, and so no steeper. Meanders lie on each other's levees, so there is **one body for each side and bend**: later
 //! ones take from earlier ones, and no shell crosses itself. Every second one is smaller by a thirtieth, so that it lies within
 //! its neighbours where they overlap, and no sheet runs along another.
 
@@ -50,10 +50,15 @@ const NARROWEST: f64 = 0.05;
 const OVERLAP: f64 = 0.5;
 /// How far ends go on beyond the channel's, in the channel's widths.
 const OVERSHOOT: f64 = 0.0923;
+/// From how far before the mouth of a tributary its levees sink, in its widths; and what is left of their width and height there.
+const MOUTH: [f64; 3] = [2.0, 0.4, 0.15];
 /// Places at which the width is looked at.
 const CHECKS: usize = 64;
 /// Pieces of the channel's section among which the one over the levee's root is looked for.
 const ROOT_STEPS: usize = 400;
+
+/// Greatest exponent of the top: that of the highest degree that the kernels take.
+pub const MOST_TAPER: usize = 5;
 
 /// A bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +70,17 @@ pub enum Bank {
 }
 
 impl Bank {
+    /// The outer one where a channel has a curvature; none where that is straight.
+    pub fn outer(curvature: f64) -> Option<Self> {
+        if curvature > 0.0 {
+            Some(Self::Right)
+        } else if curvature < 0.0 {
+            Some(Self::Left)
+        } else {
+            None
+        }
+    }
+
     /// −1 to the left, 1 to the right.
     fn side(self) -> f64 {
         match self {
@@ -83,6 +99,8 @@ pub struct LeveeDesign {
     pub height: Profile,
     /// Depth of the base below the channel's top, under the crest (m).
     pub depth: Profile,
+    /// P, 1 (a straight wedge) to [`MOST_TAPER`]: how steeply it falls beside the crest.
+    pub taper: usize,
     /// Gradient at the toe as a fraction of the mean one: 0 is tangent to the ground, 1 a straight wedge.
     pub toe: f64,
     /// How much wider it is on the outer bank of the sharpest bend, as a fraction.
@@ -118,6 +136,9 @@ pub enum LeveeError {
         /// The greatest.
         most: f64,
     },
+    /// An exponent out of its range.
+    #[error("the levee's taper is {0}: keep it within 1 to {MOST_TAPER}")]
+    Taper(usize),
     /// Its root would come out of the channel's bank.
     #[error(
         "{s:.0} m along the channel the levee's base is {depth:.2} m below the channel's top, and the channel is only \
@@ -162,15 +183,19 @@ pub struct LeveePart {
     pub ends: [f64; 2],
 }
 
-/// The parts of a bank along which a levee is one body: from inflection to inflection.
+/// The parts of a bank along which a levee is one body: from inflection to inflection, as far as the mouth of a channel that runs
+/// into another one.
 pub fn parts(reach: &Reach, bank: Bank, least_angle: f64) -> Vec<LeveePart> {
-    let length = reach.trajectory().length();
-    let bends = super::bends::bends(reach.trajectory(), reach.station(0.5).width, least_angle);
+    let width = reach.station(0.5).width;
+    let end = reach.mouth() * reach.trajectory().length();
+    let bends = super::bends::bends(reach.trajectory(), width, least_angle);
     let mut cuts = vec![0.0];
     for pair in bends.windows(2) {
         cuts.push(f64::midpoint(pair[0].to, pair[1].from));
     }
-    cuts.push(length);
+    // What is left before a mouth would be no body.
+    cuts.retain(|cut| *cut == 0.0 || *cut < end - width);
+    cuts.push(end);
     let ends = cuts.windows(2).enumerate();
     ends.map(|(number, pair)| LeveePart {
         bank,
@@ -201,11 +226,14 @@ impl LeveeDesign {
                 });
             }
         }
+        if !(1..=MOST_TAPER).contains(&self.taper) {
+            return Err(LeveeError::Taper(self.taper));
+        }
         let length = reach.trajectory().length();
         let overlap = 0.5 * OVERLAP * reach.station(0.5).width;
         let ends = [
             (part.ends[0] - overlap).max(0.0) / length,
-            (part.ends[1] + overlap).min(length) / length,
+            (part.ends[1] + overlap).min(reach.mouth() * length) / length,
         ];
         for k in 0..=CHECKS {
             let fraction = ends[0] + (ends[1] - ends[0]) * k as f64 / CHECKS as f64;
@@ -217,7 +245,10 @@ impl LeveeDesign {
             size.check_root(reach, &station)?;
         }
         let of_reach = Part::new(reach, ends, &[])?;
-        let across = [KnotVector::uniform(2, 3)?, KnotVector::uniform(1, 2)?];
+        let across = [
+            KnotVector::uniform(self.taper, self.taper + 1)?,
+            KnotVector::uniform(1, 2)?,
+        ];
         let template = |station: &Station| Ok(self.size(station, part)?.sheets(station));
         let sheets = reach
             .sheets(&of_reach, &across, &template)
@@ -248,9 +279,15 @@ impl LeveeDesign {
             [0.0, 0.0]
         };
         let thinner = (1.0 - self.thinning * fraction) * (1.0 - smaller);
+        // Towards a mouth it sinks.
+        let [narrow, low] = station.before_mouth.map_or([1.0, 1.0], |away| {
+            let part = (away / (MOUTH[0] * station.width)).clamp(0.0, 1.0);
+            [MOUTH[1], MOUTH[2]]
+                .map(|least| least + (1.0 - least) * part * part * (3.0 - 2.0 * part))
+        });
         let (width, height, depth) = (
-            self.width.at(fraction) * thinner,
-            self.height.at(fraction) * thinner,
+            self.width.at(fraction) * thinner * narrow,
+            self.height.at(fraction) * thinner * low,
             self.depth.at(fraction) * (1.0 - smaller),
         );
         for (name, value) in [("width", width), ("height", height), ("depth", depth)] {
@@ -260,12 +297,14 @@ impl LeveeDesign {
             }
         }
         let side = part.bank.side();
+        let straight = self.width.at(fraction) * thinner;
         // Positive on the outer bank.
         let width = width * (1.0 + self.bend_asymmetry * station.bend * side);
         let half = 0.5 * station.width;
         let inward = (-side * station.place.curvature).max(0.0);
         let sharp = (inward / MOST_OF_RADIUS).powi(4);
         let room = ((width + half).powi(-4) + sharp).powf(-0.25) - half;
+        let width = if inward > 0.0 { room } else { width };
         let bodies = 2 * part.number + usize::from(part.bank == Bank::Right);
         let spread = (0.5 + GOLDEN * bodies as f64).fract() + (part.number % 2) as f64;
         Ok(Size {
@@ -273,10 +312,12 @@ impl LeveeDesign {
             channel: station.width,
             crest: (CREST + back) * station.width,
             level: (CREST - back) * station.width,
-            width: if inward > 0.0 { room } else { width },
+            width,
             height,
-            depth,
+            // The base of what is narrower is no steeper: else its root would come out of the channel's bank.
+            depth: depth * (width / straight).min(1.0),
             sink: SINK * spread * depth,
+            taper: self.taper,
             toe: self.toe,
         })
     }
@@ -297,6 +338,8 @@ struct Size {
     depth: f64,
     /// Depth of the toe.
     sink: f64,
+    /// Degree of the top.
+    taper: usize,
     /// Gradient at the toe as a fraction of the mean one.
     toe: f64,
 }
@@ -341,15 +384,16 @@ impl Size {
     /// Control points of the top, from the crest to the toe, and of the lower part of the inner side, down to the base.
     fn sheets(&self, station: &Station) -> [Vec<DVec2>; 2] {
         let fall = self.height + self.sink;
-        let top = [
-            DVec2::new(self.crest, self.height),
-            // Of (1 − o/w)² and (1 − o/w) in Bernstein form.
-            DVec2::new(
-                self.crest + 0.5 * self.width,
-                0.5 * self.toe * fall - self.sink,
-            ),
-            DVec2::new(self.crest + self.width, -self.sink),
-        ];
+        // Bernstein coefficients of (1 − t)(1 − o/w)^P + t (1 − o/w).
+        let top: Vec<DVec2> = (0..=self.taper)
+            .map(|i| {
+                let outward = i as f64 / self.taper as f64;
+                let steep = if i == 0 { 1.0 - self.toe } else { 0.0 };
+                let part = steep + self.toe * (1.0 - outward);
+                let x = self.crest + outward * self.width;
+                DVec2::new(x, part * fall - self.sink)
+            })
+            .collect();
         let drop = SHOULDER * self.height.min(self.depth);
         let back = (self.crest + self.level) * drop / self.height;
         let shoulder = DVec2::new(-self.level - back, -drop);

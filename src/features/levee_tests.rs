@@ -11,6 +11,7 @@ fn levee() -> LeveeDesign {
         width: Profile::Constant(50.0),
         height: Profile::Constant(0.44),
         depth: Profile::Constant(1.32),
+        taper: 2,
         toe: 0.3,
         bend_asymmetry: 0.0,
         thinning: 0.0,
@@ -53,6 +54,33 @@ fn the_section_outside_of_the_crest_has_the_area_of_the_closed_form() {
         let under = base.closest(crest.with_z(-6.32), 1e-9).point;
         assert!(under.distance(crest.with_z(-6.32)) < 1e-6, "{under}");
         assert!(shell.contains(crest.with_z(-6.31)) && !shell.contains(crest.with_z(-6.33)));
+    }
+}
+
+#[test]
+fn the_area_above_the_toe_follows_the_taper() {
+    let reach = straight();
+    for (taper, toe) in [(1, 0.3), (3, 0.3), (4, 0.0), (5, 1.0)] {
+        let levee = LeveeDesign {
+            taper,
+            toe,
+            ..levee()
+        };
+        let own = part(Bank::Left, 0, [0.0, 400.0]);
+        let shell = levee.build(&reach, &own).unwrap().unwrap();
+        let top = shell.sheet(Role::Top).unwrap();
+        let [crest, end] = [0.0, 1.0].map(|u| top.point(u, 0.5));
+        let mut above = 0.0;
+        for (u, w) in quadrature::between(quadrature::EIGHT, 0.0, 1.0) {
+            let d = top.derivatives(u, 0.5, 1);
+            above += w * (d[0][0].z - end.z) * d[1][0].y.abs();
+        }
+        let mean = (1.0 - toe) / (taper as f64 + 1.0) + toe / 2.0;
+        let wanted = 50.0 * (crest.z - end.z) * mean;
+        assert!(
+            (above - wanted).abs() < 1e-9,
+            "{taper} {toe}: {above} {wanted}"
+        );
     }
 }
 
@@ -178,6 +206,8 @@ fn levees_that_cannot_be_are_refused() {
         design.build(&reach, &part(Bank::Left, 0, [0.0, 400.0]))
     };
     assert!(with(&|_| {}).is_ok());
+    assert!(with(&|one| one.taper = 0).is_err());
+    assert!(with(&|one| one.taper = 6).is_err());
     assert!(with(&|one| one.toe = 1.2).is_err());
     assert!(with(&|one| one.thinning = f64::NAN).is_err());
     assert!(with(&|one| one.height = Profile::Constant(0.0)).is_err());

@@ -17,6 +17,7 @@ pub mod fabric;
 pub mod frame;
 pub mod horizon;
 pub mod join;
+pub mod junction;
 pub mod lag;
 pub mod levee;
 pub mod lobe;

@@ -22,6 +22,7 @@ pub struct Reach {
     sections: Vec<f64>,
     along: KnotVector,
     sharpest: f64,
+    mouth: f64,
 }
 
 /// A reach at one place.
@@ -39,6 +40,8 @@ pub struct Station {
     pub middle: DVec2,
     /// Curvature of the trajectory as a fraction of its greatest, −1 to 1; positive where it turns left.
     pub bend: f64,
+    /// How far it is to where the channel runs into another one (m); none if it does not.
+    pub before_mouth: Option<f64>,
 }
 
 /// Control points of several sheets in section coordinates at a place: one list for each of the sheets.
@@ -95,8 +98,20 @@ impl Reach {
             sections: channel.sections().to_vec(),
             along: channel.base().knots_v().clone(),
             sharpest: left.max(right),
+            mouth: 1.0,
             trajectory,
         }
+    }
+
+    /// The same of a channel that runs into another one at a fraction of its length.
+    #[must_use]
+    pub fn with_mouth(self, mouth: f64) -> Self {
+        Self { mouth, ..self }
+    }
+
+    /// The fraction of its length at which it runs into another channel; 1 if it does not.
+    pub fn mouth(&self) -> f64 {
+        self.mouth
     }
 
     /// The channel's trajectory.
@@ -142,6 +157,8 @@ impl Reach {
             depth: self.design.depth.at(fraction),
             middle: self.design.offset(fraction),
             bend,
+            before_mouth: (self.mouth < 1.0)
+                .then(|| ((self.mouth - fraction) * self.trajectory.length()).max(0.0)),
         }
     }
 

@@ -1,19 +1,17 @@
 //! Crevasse splays: lobes whose axis starts at a breach of a channel's bank.
 //!
 //! A splay's upstream end is inside the channel, which is younger and takes what lies there below its own top; its base is a
-//! little below that top, where the flood began to erode. What it has above that top stays, over the channel too.
+//! little below that top, as deep as the flood eroded. What it has above that top stays, over the channel too.
 
 use super::levee::Bank;
 use super::lobe::LobeDesign;
 use super::reach::Reach;
-use super::trajectory::azimuth_vector;
+use super::trajectory::{Place, azimuth_vector};
 
 /// How far inside the channel a splay begins, as a fraction of its length.
 const ROOT: f64 = 0.15;
 /// The farthest that it begins from the rim, in the channel's widths: not beyond the other bank.
 const FARTHEST: f64 = 0.5;
-/// Depth of its base below the channel's top, as a fraction of its thickness.
-const EROSION: f64 = 0.1;
 
 /// A splay's parameters, sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +28,8 @@ pub struct SplayDesign {
     pub width: f64,
     /// Greatest thickness (m).
     pub thickness: f64,
+    /// Depth of its base below the channel's top, as a fraction of its thickness.
+    pub erosion: f64,
     /// See [`LobeDesign::taper`].
     pub taper: f64,
     /// See [`LobeDesign::skew`].
@@ -52,7 +52,7 @@ impl SplayDesign {
         let back = (ROOT * self.length).min(inward);
         let apex = station.place.point + rim - back * azimuth_vector(azimuth);
         let design = LobeDesign {
-            center: apex.extend(station.middle.y - EROSION * self.thickness),
+            center: apex.extend(station.middle.y - self.erosion * self.thickness),
             length: self.length,
             width: self.width,
             thickness: self.thickness,
@@ -64,33 +64,45 @@ impl SplayDesign {
     }
 }
 
-/// The fraction of a reach's length at which a bank is breached: likelier where it bends more sharply (as κ²) and the bank is
-/// the outer one, by a number from 0 to 1. `None` on a reach without bends.
-pub fn breach(reach: &Reach, draw: f64) -> Option<(f64, Bank)> {
-    let places = reach.trajectory().places();
-    let strip = |pair: &[super::trajectory::Place]| {
-        let mean = f64::midpoint(pair[0].curvature.powi(2), pair[1].curvature.powi(2));
-        mean * (pair[1].s - pair[0].s)
-    };
-    let all: f64 = places.windows(2).map(strip).sum();
-    if !(all > 0.0) {
-        return None;
-    }
-    let mut rest = draw * all;
-    for pair in places.windows(2) {
-        let own = strip(pair);
-        if rest <= own && own > 0.0 {
-            let s = pair[0].s + (pair[1].s - pair[0].s) * rest / own;
-            let bank = if pair[0].curvature + pair[1].curvature > 0.0 {
-                Bank::Right
-            } else {
-                Bank::Left
-            };
-            return Some((s / reach.trajectory().length(), bank));
+/// Where the banks of a reach may be breached: at outer banks, and likelier where it bends more sharply (as κ²).
+#[derive(Clone, Debug)]
+pub struct Breaches {
+    /// Pieces of the reach: arc lengths of their ends, the outer bank, and the sum of their weights and of those before them.
+    pieces: Vec<([f64; 2], Bank, f64)>,
+    length: f64,
+}
+
+impl Breaches {
+    /// Those places of a reach that are open to it; none if nothing bends there.
+    pub fn of(reach: &Reach, is_open: &dyn Fn(&Place) -> bool) -> Option<Self> {
+        let mut pieces = Vec::new();
+        let mut sum = 0.0;
+        for pair in reach.trajectory().places().windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let weight = f64::midpoint(a.curvature.powi(2), b.curvature.powi(2)) * (b.s - a.s);
+            let outer = Bank::outer(a.curvature + b.curvature);
+            if let Some(bank) = outer.filter(|_| weight > 0.0 && is_open(&a) && is_open(&b)) {
+                sum += weight;
+                pieces.push(([a.s, b.s], bank, sum));
+            }
         }
-        rest -= own;
+        let length = reach.trajectory().length();
+        (sum > 0.0).then_some(Self { pieces, length })
     }
-    None
+
+    /// The fraction of the reach's length at which a bank is breached, and which one, by a number from 0 to 1.
+    pub fn at(&self, draw: f64) -> (f64, Bank) {
+        let last = self.pieces.len() - 1;
+        let all = self.pieces[last].2;
+        let at = self.pieces.partition_point(|piece| piece.2 < draw * all);
+        let ([from, to], bank, sum) = self.pieces[at.min(last)];
+        let before = at
+            .min(last)
+            .checked_sub(1)
+            .map_or(0.0, |at| self.pieces[at].2);
+        let part = ((draw * all - before) / (sum - before)).clamp(0.0, 1.0);
+        ((from + (to - from) * part) / self.length, bank)
+    }
 }
 
 #[cfg(test)]
@@ -116,6 +128,7 @@ mod tests {
                     length,
                     width: 125.0,
                     thickness: 2.2,
+                    erosion: 0.1,
                     taper: 0.4,
                     skew: 0.7,
                 };
@@ -140,8 +153,9 @@ mod tests {
         let line = reach.trajectory();
         let sharpest = line.sharpest().0;
         let mut near = 0.0;
+        let all = Breaches::of(&reach, &|_| true).unwrap();
         for k in 0..2000 {
-            let (at, bank) = breach(&reach, (f64::from(k) + 0.5) / 2000.0).unwrap();
+            let (at, bank) = all.at((f64::from(k) + 0.5) / 2000.0);
             let place = line.at(at * line.length());
             let outer = if place.curvature > 0.0 {
                 Bank::Right
@@ -155,6 +169,20 @@ mod tests {
         let share = near / 2000.0;
         assert!((share - 0.8183).abs() < 2e-3, "{share}");
         let line = Trajectory::line(DVec2::ZERO, DVec2::X).unwrap();
-        assert!(breach(&along(design(), line).1, 0.5).is_none());
+        assert!(Breaches::of(&along(design(), line).1, &|_| true).is_none());
+    }
+
+    #[test]
+    fn banks_are_breached_where_they_are_open_to_it_alone() {
+        let (_, reach) = along(design(), meander());
+        let open = |place: &Place| (200.0..400.0).contains(&place.point.x) && place.curvature > 0.0;
+        let some = Breaches::of(&reach, &open).unwrap();
+        for k in 0..=100 {
+            let (at, bank) = some.at(f64::from(k) / 100.0);
+            let place = reach.station(at).place;
+            assert!((199.0..401.0).contains(&place.point.x), "{place:?}");
+            assert_eq!(bank, Bank::Right);
+        }
+        assert!(Breaches::of(&reach, &|_| false).is_none());
     }
 }

@@ -16,6 +16,9 @@ use crate::nurbs::quadrature::FIVE_ON_UNIT;
 const SAMPLES_PER_SPAN: usize = 32;
 /// Samples of a parametric curve.
 const PARAMETRIC_SAMPLES: usize = 2048;
+/// Least length of a line beside another one, as a fraction of that one's: what is less is a fold, or next to it.
+const LEAST_STRETCH: f64 = 0.02;
+
 /// One exactly known place on a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
@@ -87,6 +90,19 @@ pub enum TrajectoryError {
         count: f64,
         /// Extent along the belt (m).
         extent: f64,
+    },
+    /// A line beside it that would turn back.
+    #[error(
+        "{offset:.1} m beside the trajectory a line folds at ({:.0}, {:.0}), where that turns with a radius of {radius:.1} m: \
+         keep the offset less than that towards the inside of its bends", point.x, point.y
+    )]
+    Folds {
+        /// To the right (m).
+        offset: f64,
+        /// Where the trajectory is then.
+        point: DVec2,
+        /// Its radius of curvature there (m).
+        radius: f64,
     },
     /// The points could not be interpolated.
     #[error("the trajectory's points cannot be interpolated: {0}")]
@@ -171,7 +187,7 @@ impl Trajectory {
     }
 
     /// From position, velocity and acceleration at increasing parameters.
-    fn from_motion(
+    pub(super) fn from_motion(
         parameters: &[f64],
         motion: &dyn Fn(f64) -> [DVec2; 3],
     ) -> Result<Self, TrajectoryError> {
@@ -274,6 +290,50 @@ impl Trajectory {
             place.s -= from;
         }
         Ok(Self { places })
+    }
+
+    /// The line beside it, some way to the right (m; to the left if less than 0). Where its samples are dense enough for it, they
+    /// are for the line beside it, too, unless that turns much more sharply.
+    pub fn beside(&self, offset: f64) -> Result<Self, TrajectoryError> {
+        if !offset.is_finite() {
+            return Err(TrajectoryError::NotFinite(format!("an offset of {offset}")));
+        }
+        let start = self.places[0].direction;
+        let beside = |place: &Place| {
+            // Bends to the left are wider on the right.
+            let stretch = 1.0 + place.curvature * offset;
+            if stretch <= LEAST_STRETCH {
+                return Err(TrajectoryError::Folds {
+                    offset,
+                    point: place.point,
+                    radius: 1.0 / place.curvature.abs(),
+                });
+            }
+            Ok(Place {
+                // The integral of the stretch: that of curvature is the turn.
+                s: place.s + offset * (place.direction - start),
+                point: place.point + offset * place.right(),
+                direction: place.direction,
+                curvature: place.curvature / stretch,
+            })
+        };
+        let places = self.places.iter().map(beside).collect::<Result<_, _>>()?;
+        Ok(Self { places })
+    }
+
+    /// This line and then another one, which starts where this one ends, in the same direction.
+    pub(super) fn followed_by(mut self, next: &Self) -> Self {
+        let Some(last) = self.places.pop() else {
+            return next.clone();
+        };
+        // Directions go on: whole turns are none.
+        let turns = ((last.direction - next.places[0].direction) / TAU).round() * TAU;
+        self.places.extend(next.places.iter().map(|place| Place {
+            s: last.s + place.s,
+            direction: place.direction + turns,
+            ..*place
+        }));
+        self
     }
 
     /// Arc lengths of the sections: both ends, and wherever the direction has turned by the limit

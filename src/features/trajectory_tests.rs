@@ -165,3 +165,56 @@ fn what_is_no_line_is_refused() {
         TrajectoryError::TooManyMeanders { .. }
     ));
 }
+
+#[test]
+fn a_line_beside_an_arc_is_an_arc_with_the_radius_less_or_more() {
+    // To the left, so the right is outside.
+    let arc = |t: f64| DVec2::new(3.0, -2.0) + 100.0 * DVec2::from_angle(t);
+    let line = Trajectory::parametric(&arc, [0.2, 1.7]).unwrap();
+    for offset in [-97.0, -30.0, 0.0, 45.0] {
+        let beside = line.beside(offset).unwrap();
+        let radius = 100.0 + offset;
+        assert!(
+            (beside.length() - 1.5 * radius).abs() < 1e-9 * radius,
+            "{}",
+            beside.length()
+        );
+        for place in beside.places() {
+            let away = place.point - DVec2::new(3.0, -2.0);
+            assert!((away.length() - radius).abs() < 1e-9);
+            assert!((place.curvature * radius - 1.0).abs() < 1e-6);
+            assert!(place.tangent().dot(away).abs() < 1e-6 * radius);
+        }
+    }
+    let error = line.beside(-100.5).unwrap_err();
+    assert!(
+        matches!(error, TrajectoryError::Folds { radius, .. } if (radius - 100.0).abs() < 1e-3),
+        "{error}"
+    );
+    assert!(line.beside(f64::NAN).is_err());
+}
+
+#[test]
+fn a_line_beside_a_meander_is_as_far_away_everywhere_and_as_long() {
+    // An inflection at both ends: what the bends to the left gain, those to the right lose.
+    let meander = Trajectory::sine_generated(&crate::features::meander::SineGenerated {
+        amplitude: 100.0,
+        wavelength: 475.0,
+        azimuth: 1.2,
+        center: DVec2::ZERO,
+        phase: 0.25,
+        extent: [0.0, 950.0],
+    })
+    .unwrap();
+    let beside = meander.beside(40.0).unwrap();
+    assert!((beside.length() - meander.length()).abs() < 1e-6);
+    for k in 0..=200 {
+        let place = beside.at(beside.length() * f64::from(k) / 200.0);
+        let nearest = meander
+            .places()
+            .iter()
+            .map(|other| other.point.distance(place.point));
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        assert!((nearest - 40.0).abs() < 0.05, "{nearest}");
+    }
+}

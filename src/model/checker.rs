@@ -2,10 +2,13 @@
 
 mod world;
 
+use std::cell::RefCell;
+
 use super::defects::Text;
 use super::domain::Domain;
 use super::place::{Note, Place};
 use super::read::Reader;
+use super::references::Reference;
 use super::tree::NodeId;
 
 /// A value is wrong, and the defect is reported: what [`Option`] cannot say of a key that may be left out.
@@ -16,8 +19,20 @@ pub(crate) struct Checker<'t> {
     pub(crate) reader: Reader<'t>,
     pub(crate) texts: &'t [Text],
     pub(crate) notes: Vec<Note>,
+    /// What features refer to, as far as it is read.
+    pub(crate) referring: RefCell<Vec<Referring>>,
     /// Where the local origin lies in the world, as far as it is known.
     pub(crate) origin: [f64; 3],
+}
+
+/// A reference with its place.
+pub(crate) struct Referring {
+    /// The feature that refers to another one.
+    pub(crate) own: usize,
+    pub(crate) node: NodeId,
+    /// What refers to it, in words.
+    pub(crate) what: String,
+    pub(crate) reference: Reference,
 }
 
 /// The domain's limits, as far as they are known.

@@ -9,6 +9,7 @@ use serde::Deserialize;
 use super::checker::Checker;
 use super::nature::Nature;
 use super::read::{Any, Field};
+use super::references::Host;
 use super::suggest;
 use super::tree::{NodeId, quoted};
 use super::values::facies::FaciesList;
@@ -39,6 +40,8 @@ pub(crate) struct FeatureFile {
     pub(crate) level: Option<Field<u64>>,
     /// Id of the feature that it lies in; it is made directly after its parent, so a younger feature also cuts it.
     pub(crate) parent: Option<Field<String>>,
+    /// Id of the channel that it goes along, in place of a parent; one is made with each instance of that, directly before it, so that the channel cuts it.
+    pub(crate) along: Option<Field<String>>,
     /// The facies of what it bounds.
     pub(crate) facies: Field<String>,
     /// Rock properties of its own volumes, in the place of those of its `facies`; parts with a facies of their own, such as belts and drapes, keep that one's.
@@ -63,11 +66,17 @@ pub(crate) struct Draft {
     pub(crate) kind: Option<Nature>,
     pub(crate) level: Option<(NodeId, u32)>,
     pub(crate) parent: Option<(NodeId, String)>,
+    pub(crate) along: Option<(NodeId, String)>,
     pub(crate) count: Option<(Option<NodeId>, u64)>,
     pub(crate) file: FeatureFile,
 }
 
 impl Draft {
+    /// Its id, or nothing.
+    pub(crate) fn id(&self) -> &str {
+        self.id.as_ref().map_or("", |(_, id)| id.as_str())
+    }
+
     /// The rules of what it takes that the file gives, with their places.
     pub(crate) fn taking_rules(&self) -> Vec<(&'static str, NodeId)> {
         let removes = match &self.file.removes {
@@ -85,6 +94,11 @@ impl Draft {
     pub(crate) fn wrong_parent(&self) -> bool {
         matches!(self.file.parent, Some(Field::Bad))
     }
+
+    /// The same of what it goes along.
+    pub(crate) fn wrong_along(&self) -> bool {
+        matches!(self.file.along, Some(Field::Bad))
+    }
 }
 
 /// The other features and the facies, which the rules of one feature name.
@@ -94,6 +108,7 @@ pub(crate) struct Family<'f> {
     /// Which of the drafts is the feature itself.
     pub(crate) own: usize,
     pub(crate) lineages: &'f [Lineage],
+    pub(crate) hosts: &'f [Option<Host>],
     pub(crate) facies: &'f FaciesList,
     /// The names of all kinds.
     pub(crate) kinds: &'f [&'static str],
@@ -104,11 +119,22 @@ pub(crate) struct Family<'f> {
 pub(crate) struct Lineage {
     pub(crate) level: u32,
     pub(crate) instances: u64,
-    /// The forebear without a parent.
+    /// The forebear that goes with nothing.
     pub(crate) root: usize,
 }
 
 impl<'f> Family<'f> {
+    /// The feature that another one goes with.
+    pub(crate) fn host(&self, feature: usize) -> Option<usize> {
+        self.hosts[feature].map(Host::feature)
+    }
+
+    /// How many are made of a feature in each place; one if the file's number is wrong.
+    pub(crate) fn count(&self, feature: usize) -> usize {
+        let count = self.drafts[feature].count.map_or(1, |(_, count)| count);
+        usize::try_from(count).unwrap_or(usize::MAX)
+    }
+
     /// Whether a feature is the base of a unit.
     pub(crate) fn is_horizon(&self, feature: usize) -> bool {
         self.drafts[feature].kind.is_some_and(|kind| kind.is_base)

@@ -77,6 +77,42 @@ pub enum Within {
         /// What to do about anything else.
         remedy: &'static str,
     },
+    /// Nothing: it goes along features of this kind, as a companion of each of their instances.
+    Along {
+        /// The kind's name.
+        kind: &'static str,
+        /// What to do about anything else.
+        remedy: &'static str,
+    },
+    /// Anything, as with [`Within::Anything`]; or it goes along features of this kind.
+    AnythingOrAlong {
+        /// The kind's name.
+        kind: &'static str,
+        /// What to do about others that it shall go along.
+        remedy: &'static str,
+    },
+}
+
+/// What features that refer to one find in what was made of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gives {
+    /// Nothing.
+    Nothing,
+    /// A way in plan, with a section along it.
+    Way,
+    /// Sheets without an end inside the domain.
+    Sheets,
+}
+
+impl Gives {
+    /// What has it, in words that follow "name".
+    pub fn of_what(self) -> &'static str {
+        match self {
+            Self::Nothing => "a feature",
+            Self::Way => "a channel",
+            Self::Sheets => "a horizon, or a set of clinoforms or one of it",
+        }
+    }
 }
 
 /// Whether anything can lie in a kind.

@@ -128,14 +128,15 @@ impl Realisation {
         step: f64,
     ) -> Result<Self, RealisationError> {
         let mut list = Listing::new(model, selection, step)?;
-        list.instances(None, "", "")?;
+        list.list()?;
         let made = making::make_all(model, &list)?;
         let extent = list.extent()?;
         let mut counts: BTreeMap<(Option<usize>, &'static str), u32> = BTreeMap::new();
         for reason in list.rejected.iter().copied() {
             *counts.entry(reason).or_default() += 1;
         }
-        for (due, made) in list.due.iter().zip(&made) {
+        let of_all = list.due.iter().zip(&made);
+        for (due, made) in of_all.filter(|(due, _)| due.takes_part) {
             for reason in &made.rejected {
                 *counts.entry((Some(due.feature), reason)).or_default() += 1;
             }

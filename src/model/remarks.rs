@@ -138,23 +138,27 @@ pub fn empty(realisation: &Realisation, owners: &Owners) -> Vec<usize> {
     let rest: Vec<&Instance> = realisation
         .instances
         .iter()
-        .filter(|instance| !found[instance.volume])
+        .filter(|instance| !found[realisation.rules.whole(instance.volume)])
         .collect();
     let diagonal = owners.extent().low().distance(owners.extent().high());
-    rest.par_iter()
+    // Of what is a piece of another volume any will do.
+    let whole = |instance: &Instance| realisation.rules.whole(instance.volume);
+    let shown: BTreeSet<usize> = rest
+        .par_iter()
         .filter(|instance| {
-            let holds = |point: DVec3| owners.at(point) == Some(instance.volume);
-            let shown = match &instance.body {
+            let holds = |point: DVec3| owners.at(point) == Some(whole(instance));
+            match &instance.body {
                 Body::Side(side) => side
                     .sheets()
                     .iter()
                     .any(|sheet| beside(sheet, BESIDE * diagonal).any(holds)),
                 body => points_within(body).any(holds),
-            };
-            !shown
+            }
         })
-        .map(|instance| instance.volume)
-        .collect()
+        .map(|instance| whole(instance))
+        .collect();
+    let wholes: BTreeSet<usize> = rest.iter().map(|instance| whole(instance)).collect();
+    wholes.difference(&shown).copied().collect()
 }
 
 /// How it is known that volumes hold nothing.
@@ -193,7 +197,7 @@ pub fn say_empty(
         .flat_map(|remark| remark.volumes.iter().copied())
         .collect();
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for volume in volumes {
+    for volume in volumes.iter().filter(|one| one.piece_of.is_none()) {
         *counts.entry(&volume.feature).or_default() += 1;
     }
     // By feature, in the order of their first volumes.

@@ -13,6 +13,9 @@
 //! hold. What they divide off is said by `from`: such a volume takes the place only from that holder or
 //! what descends from it. Dividing is not removing, so the `removed_by` of that one holder is not asked.
 //!
+//! A volume may have several bodies, such as a levee along several bends; the younger ones are pieces of the oldest one, and what
+//! they hold is that one's.
+//!
 //! A horizon given by its thickness above another one lies nowhere below that one, whatever its surface does where the
 //! thickness is none: such a volume holds a place only where what it lies `above` does, too.
 
@@ -50,6 +53,10 @@ pub struct VolumeRules {
     pub from: Option<usize>,
     /// The older volume that it lies above: it takes only what lies within this one's body, too.
     pub above: Option<usize>,
+    /// The older volume, of the same name and rules, that it is a piece of: what it holds is that one's.
+    pub piece_of: Option<usize>,
+    /// The younger volume that it goes along as a companion: no rule, but where people look for it.
+    pub along: Option<usize>,
 }
 
 /// All volumes' rules, resolved: volume 0 is the background, then in order of evaluation.
@@ -65,6 +72,7 @@ struct Resolved {
     parent: Option<usize>,
     from: Option<usize>,
     above: Option<usize>,
+    piece_of: Option<usize>,
     preserve: bool,
     removes: Chosen,
     removed_by: Chosen,
@@ -175,6 +183,7 @@ impl Rules {
                 parent: volume.parent,
                 from: volume.from,
                 above: volume.above,
+                piece_of: volume.piece_of,
                 preserve: volume.preserve,
                 removes: chosen(&volume.removes),
                 removed_by: chosen(&volume.removed_by),
@@ -249,7 +258,13 @@ impl Rules {
                 holder
             }
         };
-        younger.into_iter().fold(first, takes)
+        let holder = younger.into_iter().fold(first, takes);
+        self.whole(holder)
+    }
+
+    /// The volume that a body is a piece of: most often the body's own.
+    pub fn whole(&self, body: usize) -> usize {
+        self.volumes[body].piece_of.unwrap_or(body)
     }
 
     /// Whether a body takes every place inside it, whatever holds that.

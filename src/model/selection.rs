@@ -109,7 +109,7 @@ fn found(model: &Model, name: &str) -> Result<String, SelectionError> {
 
 /// The whole names of a feature's volumes that end in this one; so many at most as anybody reads.
 fn completed(model: &Model, feature: &Feature, name: &str) -> Vec<String> {
-    let Some(parent) = feature.parent.map(|parent| &model.features[parent]) else {
+    let Some(parent) = host(model, feature) else {
         return Vec::new();
     };
     let starts = std::iter::once(0).chain(name.match_indices('/').map(|(at, _)| at + 1));
@@ -130,7 +130,7 @@ fn completed(model: &Model, feature: &Feature, name: &str) -> Vec<String> {
 
 /// The whole names of a feature's instances; so many at most as anybody reads.
 fn volumes(model: &Model, feature: &Feature) -> Vec<String> {
-    let paths = match feature.parent.map(|parent| &model.features[parent]) {
+    let paths = match host(model, feature) {
         None => vec![String::new()],
         Some(parent) => volumes(model, parent),
     };
@@ -178,7 +178,7 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     if feature.id == name {
         return Some(Named::Volume);
     }
-    let is_in_parent = |path: &str| match feature.parent.map(|parent| &model.features[parent]) {
+    let is_in_parent = |path: &str| match host(model, feature) {
         None => path.is_empty(),
         Some(parent) => matches!(names(model, parent, path), Some(Named::Volume)),
     };
@@ -213,6 +213,11 @@ fn names<'a>(model: &Model, feature: &Feature, name: &'a str) -> Option<Named<'a
     (is_own && is_in_parent(path)).then_some(Named::Volume)
 }
 
+/// The feature that another one goes with.
+fn host<'m>(model: &'m Model, feature: &Feature) -> Option<&'m Feature> {
+    Some(&model.features[feature.host()?.feature()])
+}
+
 /// A volume's number, written as the program writes it.
 fn number(digits: &str) -> Option<usize> {
     let number = digits.parse::<usize>().ok()?;
@@ -221,9 +226,8 @@ fn number(digits: &str) -> Option<usize> {
 
 /// What stands before a feature's own name in those of its volumes; of a feature with many parents, of the first.
 fn path(model: &Model, feature: &Feature) -> String {
-    let parent = feature.parent.map(|parent| &model.features[parent]);
-    parent.map_or(String::new(), |parent| {
-        format!("{}{}/", path(model, parent), first_volume(parent))
+    host(model, feature).map_or(String::new(), |host| {
+        format!("{}{}/", path(model, host), first_volume(host))
     })
 }
 

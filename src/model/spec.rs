@@ -7,6 +7,7 @@ use super::domain::Domain;
 use super::facies::Facies;
 use super::kinds::FeatureKind;
 use super::place::{Note, Place};
+use super::references::Host;
 use super::values::property::PropertySpec;
 use super::values::selector::Selector;
 
@@ -46,8 +47,10 @@ pub struct Feature {
     pub count: usize,
     /// Hierarchical level, 1 = largest.
     pub level: u32,
-    /// Index of the parent.
+    /// Index of the parent; of a companion, that of what it goes along.
     pub parent: Option<usize>,
+    /// Of a companion: index of the feature that it goes along.
+    pub along: Option<usize>,
     /// Index of the facies of what it bounds.
     pub facies: usize,
     /// Rock properties of its own volumes, in the place of those of its facies.
@@ -60,4 +63,14 @@ pub struct Feature {
     pub preserve: bool,
     /// Where the file defines it.
     pub place: Place,
+}
+
+impl Feature {
+    /// What it goes with, of which each instance has its own; nothing of what goes with the model as a whole.
+    pub fn host(&self) -> Option<Host> {
+        match (self.along, self.parent) {
+            (Some(along), _) => Some(Host::Along(along)),
+            (None, parent) => parent.map(Host::In),
+        }
+    }
 }

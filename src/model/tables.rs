@@ -127,6 +127,29 @@ pub(crate) fn by_kind_but(
     table.into()
 }
 
+/// A table as above, or another one without a `kind`: that which has this key.
+pub(crate) fn or_form(by_kind: Schema, key: &str, form: &Schema) -> Schema {
+    let mut table = object(by_kind.to_value());
+    let own = keys(form);
+    let mut properties = table.remove("properties").map_or_else(Map::new, object);
+    let allowed: Map<String, Value> = own
+        .keys()
+        .map(|key| (key.clone(), Value::Bool(true)))
+        .collect();
+    properties.extend(own);
+    let rest = ["if", "then", "else", "required"]
+        .into_iter()
+        .filter_map(|word| Some((word.to_owned(), table.remove(word)?)));
+    let rest: Map<String, Value> = rest.collect();
+    table.extend(object(json!({
+        "properties": properties,
+        "if": { "required": [key] },
+        "then": { "title": key, "properties": allowed, "additionalProperties": false },
+        "else": rest,
+    })));
+    table.into()
+}
+
 /// A key's schema if all kinds that have it mean the same, or no more than what each says of it; and whether they do.
 fn shared(key: &str, kinds: &[(&str, Schema)]) -> (Value, bool) {
     let having: Vec<(&str, Map<String, Value>, String)> = kinds

@@ -8,6 +8,7 @@ use super::boxes;
 use super::faces::{Face as TracedFace, HalfEdge};
 use super::hermite::{PARTS, on_sheet};
 use super::quadrature::Integral;
+use super::slits::without_slits;
 use super::solids::{Parts, Solid as JoinedSolid};
 use super::topology::{
     CurveShape, Edge, Face, OnSheet, PlaneCurve, SheetShape, Solid, Topology, Vertex,
@@ -147,14 +148,14 @@ impl Builder<'_> {
         let (is_plane, looks_out) = (shape.plane.is_some(), shape.looks_out);
         let sheet = self.sheet(face.sheet, shape);
         let mut loops = Vec::with_capacity(face.loops.len());
-        for own in &face.loops {
+        let traced = if is_plane {
+            self.on_plane(face)
+        } else {
+            face.loops.clone()
+        };
+        for own in &traced {
             let mut uses = Vec::with_capacity(own.len());
             for half in own {
-                let arc = &self.parts.arcs[half.arc];
-                let is_pole = matches!(self.parts.tracks.tracks[arc.track].source, Source::Pole(_));
-                if is_pole && is_plane {
-                    continue;
-                }
                 let edge = self.edge(half.arc);
                 uses.push((edge, !half.forward));
                 if !is_plane {
@@ -174,6 +175,29 @@ impl Builder<'_> {
             },
             integral,
         });
+    }
+
+    /// The loops of a face on a plane, which has no poles and no seams; the outer one first.
+    fn on_plane(&self, face: &TracedFace) -> Vec<Vec<HalfEdge>> {
+        let Parts {
+            arcs,
+            tracks,
+            geometry,
+            ..
+        } = self.parts;
+        let source = |half: &HalfEdge| tracks.tracks[arcs[half.arc].track].source;
+        let point = |half: &HalfEdge, part: f64| {
+            let [from, to] = arcs[half.arc].t;
+            let part = if half.forward { part } else { 1.0 - part };
+            geometry.point(source(half), from + (to - from) * part)
+        };
+        let mut loops = Vec::with_capacity(face.loops.len());
+        for own in &face.loops {
+            let is_curve = |half: &&HalfEdge| !matches!(source(half), Source::Pole(_));
+            let own: Vec<HalfEdge> = own.iter().filter(is_curve).cloned().collect();
+            loops.extend(without_slits(&own, &point));
+        }
+        loops
     }
 
     fn edge(&mut self, at: usize) -> usize {

@@ -48,6 +48,7 @@ mod relations;
 mod scalar;
 mod seeds;
 mod sheet;
+mod slits;
 mod solids;
 mod solve;
 mod topology;

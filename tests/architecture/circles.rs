@@ -27,8 +27,10 @@ const KNOWN: &[&[&str]] = &[
         "model/kinds/ellipsoid.rs",
         "model/kinds/horizon.rs",
         "model/kinds/lag.rs",
+        "model/kinds/levee.rs",
         "model/kinds/mod.rs",
         "model/kinds/point_bars.rs",
+        "model/kinds/splay.rs",
     ],
     &[
         "model/realisation.rs",

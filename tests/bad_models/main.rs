@@ -10,11 +10,13 @@
 )]
 
 mod channels;
+mod companions;
 mod ellipsoids;
 mod files;
 mod lags;
 mod overrides;
 mod point_bars;
+mod references;
 mod shorefaces;
 
 use clinothem::model::{Defects, Format, Model, Source};

@@ -11,6 +11,7 @@ mod ellipsoids;
 mod identities;
 mod meshing;
 mod owners;
+mod references;
 mod rejections;
 
 use std::collections::BTreeMap;

@@ -1,5 +1,7 @@
 //! Comparisons with the point evaluator: integrals of `owner`, points beside faces, points in solids.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -34,10 +36,21 @@ impl Prover<'_> {
     /// Each volume agrees with an integral of `owner`, and whatever owns a sampled point has a solid.
     pub(super) fn sampled_volumes(&self) -> Vec<Check> {
         let mut boxes = vec![(BACKGROUND, self.plan.low(), self.plan.high(), OVERALL)];
+        // Bodies of one volume have one box.
+        let mut places: BTreeMap<usize, usize> = BTreeMap::new();
         for body in &self.plan.bodies {
             let (low, high) = self.plan.shells[body.shell].body.bounds();
             let (low, high) = (low.max(self.plan.low()), high.min(self.plan.high()));
-            boxes.push((body.volume, low, high, PER_VOLUME));
+            let whole = self.plan.rules.whole(body.volume);
+            let place = *places.entry(whole).or_insert(boxes.len());
+            match boxes.get_mut(place) {
+                None => boxes.push((whole, low, high, PER_VOLUME)),
+                Some((_, lowest, highest, count)) => {
+                    *lowest = lowest.min(low);
+                    *highest = highest.max(high);
+                    *count += PER_VOLUME;
+                }
+            }
         }
         let statements = boxes.len() as f64;
         let results: Vec<(f64, f64, Vec<usize>)> = boxes

@@ -98,6 +98,9 @@ pub struct VolumeEntry {
     pub color: String,
     /// The volume that it is a child of.
     pub parent: Option<String>,
+    /// The volume that it goes along, if it is a companion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub along: Option<String>,
     /// Its rock properties: a number; three along x, y and z; or a symmetric tensor by rows. `net` is a fraction, permeability in mD.
     pub properties: BTreeMap<String, serde_json::Value>,
     /// What was drawn for it, by parameter.

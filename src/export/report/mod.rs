@@ -31,10 +31,11 @@ impl Report {
         } = parts;
         let domain = plan.extent.volume();
         let labels = labels::labels(model, &realisation.volumes);
-        let volumes: Vec<VolumeEntry> = labels
-            .into_iter()
-            .enumerate()
-            .map(|(volume, label)| volume_entry(parts, volume, label))
+        // What is a piece of an older volume is told of with that.
+        let is_whole = |volume: &usize| realisation.rules.whole(*volume) == *volume;
+        let volumes: Vec<VolumeEntry> = (0..realisation.volumes.len())
+            .filter(is_whole)
+            .map(|volume| volume_entry(parts, volume, labels[volume].clone()))
             .collect();
         let facies: Vec<FaciesEntry> = model
             .facies
@@ -51,6 +52,7 @@ impl Report {
         let outside = remarks::outside_parents(realisation);
         notes.extend(outside.iter().map(|remark| remark.text.clone()));
         let empty: Vec<usize> = (0..realisation.volumes.len())
+            .filter(is_whole)
             .filter(|volume| assembly.measured.pieces_of(*volume).is_empty())
             .collect();
         let empty = remarks::say_empty(realisation, &empty, remarks::Known::BySolids, &outside);
@@ -172,6 +174,9 @@ fn volume_entry(parts: Parts<'_>, volume: usize, label: Option<String>) -> Volum
         parent: rules
             .parent
             .map(|parent| realisation.volumes[parent].name.clone()),
+        along: rules
+            .along
+            .map(|along| realisation.volumes[along].name.clone()),
         properties: rock
             .values
             .iter()

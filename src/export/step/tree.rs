@@ -6,6 +6,7 @@ use crate::export::text::{ascii, one_line};
 use crate::model::labels::feature_label;
 use crate::model::properties::VolumeProperties;
 use crate::model::realisation::Realisation;
+use crate::model::rules::VolumeRules;
 use crate::model::{Facies, Model};
 
 /// Builds the tree of parts: the background, then a node for each feature with several instances, and
@@ -61,12 +62,13 @@ impl Tree<'_> {
         self.labels[volume].as_ref().unwrap_or(name)
     }
 
-    /// Nodes of all features whose parent volume is this.
+    /// Nodes of all features whose volumes lie in this one, or go along it.
     fn features(&self, parent: Option<usize>) -> Vec<Node> {
         let volumes = &self.realisation.volumes;
         let mut nodes: Vec<Node> = Vec::new();
         let mut features: Vec<&str> = Vec::new();
-        for volume in volumes[1..].iter().filter(|volume| volume.parent == parent) {
+        let is_with = |volume: &VolumeRules| volume.along.or(volume.parent) == parent;
+        for volume in volumes[1..].iter().filter(|volume| is_with(volume)) {
             if !features.contains(&volume.feature.as_str()) {
                 features.push(&volume.feature);
             }
@@ -75,7 +77,7 @@ impl Tree<'_> {
         for feature in features {
             let mut instances = Vec::new();
             for (volume, rules) in volumes.iter().enumerate().skip(1) {
-                if rules.parent == parent && rules.feature == *feature {
+                if is_with(rules) && rules.feature == *feature {
                     instances.extend(self.volume(volume));
                 }
             }
@@ -91,7 +93,7 @@ impl Tree<'_> {
         nodes
     }
 
-    /// A volume with its children, or nothing if none of them has a solid.
+    /// A volume with its companions and children, or nothing if none of them has a solid.
     fn volume(&self, volume: usize) -> Option<Node> {
         let leaf = self.leaf(volume);
         let children = self.features(Some(volume));

@@ -7,8 +7,27 @@ use crate::model::checker::Checker;
 use crate::model::defects::Defect;
 use crate::model::draft::{DEEPEST_LEVEL, Draft, Lineage, ids};
 use crate::model::nature::{Nature, Volumes};
+use crate::model::references::Host;
 use crate::model::suggest;
-use crate::model::tree::quoted;
+use crate::model::tree::{NodeId, quoted};
+
+/// A key that says what a feature goes with.
+#[derive(Clone, Copy)]
+struct Which {
+    /// What a feature with it does, in words.
+    has: &'static str,
+    /// What to do where the domain is named.
+    none: &'static str,
+}
+
+const PARENT: Which = Which {
+    has: "has the parent",
+    none: "leave `parent` out: a feature without one lies in the domain",
+};
+const ALONG: Which = Which {
+    has: "goes along",
+    none: "name a channel",
+};
 
 /// The most instances that a model may have.
 const MOST_OF_ALL: u64 = 100_000;
@@ -72,44 +91,57 @@ impl Checker<'_> {
         }
     }
 
-    /// The index of each feature's parent; none where it has none, or a wrong one (which is a defect).
-    pub(super) fn parents(
+    /// What each feature goes with; nothing where it has no host, or a wrong one (which is a defect).
+    pub(super) fn hosts(
         &self,
         drafts: &[Draft],
         index: &BTreeMap<String, usize>,
-    ) -> Vec<Option<usize>> {
-        let mut parents: Vec<Option<usize>> = Vec::new();
-        for draft in drafts {
-            parents.push(draft.parent.as_ref().and_then(|(at, parent)| {
-                let found = index.get(parent).copied();
-                if found.is_none() {
-                    let remedy: String = if RESERVED.contains(&parent.as_str()) {
-                        "leave `parent` out: a feature without one lies in the domain".to_owned()
-                    } else {
-                        self.reader
-                            .hint(|| suggest::name(parent, &ids(drafts), "features"))
-                    };
-                    self.reader.wrong(
-                        *at,
-                        format!(
-                            "{} has the parent {}, which is not a feature",
-                            draft.name,
-                            quoted(parent)
-                        ),
-                        remedy,
-                    );
-                }
-                found
-            }));
-        }
-        self.cut_cycles(drafts, &mut parents);
-        parents
+    ) -> Vec<Option<Host>> {
+        let find = |draft: &Draft, (at, id): &(NodeId, String), which: Which| {
+            let found = index.get(id).copied();
+            if found.is_none() {
+                let remedy: String = if RESERVED.contains(&id.as_str()) {
+                    which.none.to_owned()
+                } else {
+                    self.reader
+                        .hint(|| suggest::name(id, &ids(drafts), "features"))
+                };
+                let message = format!(
+                    "{} {} {}, which is not a feature",
+                    draft.name,
+                    which.has,
+                    quoted(id)
+                );
+                self.reader.wrong(*at, message, remedy);
+            }
+            found
+        };
+        let host = |draft: &Draft| match (&draft.along, &draft.parent) {
+            (Some((at, _)), Some((_, parent))) => {
+                self.reader.wrong(
+                    *at,
+                    format!(
+                        "{} has the parent {}, and `along`, too",
+                        draft.name,
+                        quoted(parent)
+                    ),
+                    "keep one: what goes along a channel lies in what that lies in",
+                );
+                None
+            }
+            (Some(along), None) => find(draft, along, ALONG).map(Host::Along),
+            (None, Some(parent)) => find(draft, parent, PARENT).map(Host::In),
+            (None, None) => None,
+        };
+        let mut hosts: Vec<Option<Host>> = drafts.iter().map(host).collect();
+        self.cut_cycles(drafts, &mut hosts);
+        hosts
     }
 
-    fn cut_cycles(&self, drafts: &[Draft], parents: &mut [Option<usize>]) {
+    fn cut_cycles(&self, drafts: &[Draft], hosts: &mut [Option<Host>]) {
         // 0 = not seen, 1 = on the present way up, 2 = known to lead to a root.
-        let mut state = vec![0_u8; parents.len()];
-        for start in 0..parents.len() {
+        let mut state = vec![0_u8; hosts.len()];
+        for start in 0..hosts.len() {
             let mut way = Vec::new();
             let mut at = Some(start);
             while let Some(i) = at {
@@ -118,27 +150,14 @@ impl Checker<'_> {
                 }
                 if state[i] == 1 {
                     let begin = way.iter().position(|&j| j == i).unwrap_or(0);
-                    let names: Vec<&str> = way[begin..]
-                        .iter()
-                        .chain(std::iter::once(&i))
-                        .filter_map(|&j| drafts[j].id.as_ref().map(|(_, id)| id.as_str()))
-                        .collect();
-                    if let Some((node, _)) = &drafts[i].parent {
-                        self.reader.wrong(
-                            *node,
-                            format!(
-                                "the parents go round in a circle: {}",
-                                suggest::list(&names).replace(", ", " → ")
-                            ),
-                            "a feature cannot lie inside itself; remove one of these parents",
-                        );
-                    }
-                    parents[i] = None;
+                    let circle: Vec<usize> = way[begin..].to_vec();
+                    self.report_cycle(drafts, hosts, &circle);
+                    hosts[i] = None;
                     break;
                 }
                 state[i] = 1;
                 way.push(i);
-                at = parents[i];
+                at = hosts[i].map(Host::feature);
             }
             for i in way {
                 state[i] = 2;
@@ -146,11 +165,39 @@ impl Checker<'_> {
         }
     }
 
+    fn report_cycle(&self, drafts: &[Draft], hosts: &[Option<Host>], circle: &[usize]) {
+        let names: Vec<&str> = circle
+            .iter()
+            .chain(&circle[..1])
+            .map(|&at| drafts[at].id())
+            .collect();
+        let goes_along = circle
+            .iter()
+            .any(|&at| matches!(hosts[at], Some(Host::Along(_))));
+        let (what, remedy) = if goes_along {
+            (
+                "parents and what features go along",
+                "a feature cannot go along what lies in it; remove one of these",
+            )
+        } else {
+            (
+                "the parents",
+                "a feature cannot lie inside itself; remove one of these parents",
+            )
+        };
+        let first = &drafts[circle[0]];
+        if let Some((node, _)) = first.along.as_ref().or(first.parent.as_ref()) {
+            let way = suggest::list(&names).replace(", ", " → ");
+            self.reader
+                .wrong(*node, format!("{what} go round in a circle: {way}"), remedy);
+        }
+    }
+
     /// The level and the number of instances of each feature; those of a child follow from its parent's.
-    pub(super) fn lineages(&mut self, drafts: &[Draft], parents: &[Option<usize>]) -> Vec<Lineage> {
+    pub(super) fn lineages(&mut self, drafts: &[Draft], hosts: &[Option<Host>]) -> Vec<Lineage> {
         let mut known: Vec<Option<Lineage>> = vec![None; drafts.len()];
         let lineages: Vec<Lineage> = (0..drafts.len())
-            .map(|i| lineage(drafts, parents, &mut known, i))
+            .map(|i| lineage(drafts, hosts, &mut known, i))
             .collect();
         let mut total = 0_u64;
         for (i, draft) in drafts.iter().enumerate() {
@@ -170,8 +217,8 @@ impl Checker<'_> {
                     "lower the counts (those of a child are multiplied by its parent's)",
                 );
             }
-            match (draft.level, parents[i]) {
-                (Some((at, _)), Some(parent)) if level <= lineages[parent].level => {
+            match (draft.level, hosts[i]) {
+                (Some((at, _)), Some(Host::In(parent))) if level <= lineages[parent].level => {
                     let above = lineages[parent].level;
                     self.note(
                         at,
@@ -197,17 +244,21 @@ impl Checker<'_> {
         lineages
     }
 
-    pub(super) fn note_disabled_parents(&mut self, drafts: &[Draft], parents: &[Option<usize>]) {
-        for (i, draft) in drafts.iter().enumerate() {
-            if let Some(parent) = parents[i]
-                && draft.enabled
-                && !drafts[parent].enabled
-            {
-                let name = &drafts[parent].name;
+    pub(super) fn note_disabled_hosts(&mut self, drafts: &[Draft], hosts: &[Option<Host>]) {
+        for (draft, host) in drafts.iter().zip(hosts) {
+            let Some(host) = host.filter(|host| !drafts[host.feature()].enabled) else {
+                continue;
+            };
+            if draft.enabled {
+                let with = match host {
+                    Host::In(_) => "its parent",
+                    Host::Along(_) => "what it goes along",
+                };
+                let name = &drafts[host.feature()].name;
                 self.note(
                     draft.node,
                     format!(
-                        "{} is left out with its parent, {name}, which is disabled",
+                        "{} is left out with {with}, {name}, which is disabled",
                         draft.name
                     ),
                 );
@@ -219,16 +270,16 @@ impl Checker<'_> {
 /// The lineage of feature `start`, from the first of its forebears whose own is known.
 fn lineage(
     drafts: &[Draft],
-    parents: &[Option<usize>],
+    hosts: &[Option<Host>],
     known: &mut [Option<Lineage>],
     start: usize,
 ) -> Lineage {
     let mut way = vec![start];
     while let Some(&i) = way.last()
         && known[i].is_none()
-        && let Some(parent) = parents[i]
+        && let Some(host) = hosts[i]
     {
-        way.push(parent);
+        way.push(host.feature());
     }
     let mut above = Lineage {
         level: 0,
@@ -238,10 +289,12 @@ fn lineage(
     for i in way.into_iter().rev() {
         above = known[i].unwrap_or_else(|| {
             let count = drafts[i].count.map_or(1, |(_, count)| count);
+            // What goes along something is of the same level.
+            let deeper = u32::from(!matches!(hosts[i], Some(Host::Along(_))));
             Lineage {
                 level: drafts[i]
                     .level
-                    .map_or(above.level.saturating_add(1), |(_, level)| level),
+                    .map_or(above.level.saturating_add(deeper), |(_, level)| level),
                 instances: above.instances.saturating_mul(count),
                 root: above.root,
             }
@@ -249,6 +302,18 @@ fn lineage(
         known[i] = Some(above);
     }
     above
+}
+
+/// The parent of a feature; of a companion, that of what it goes along.
+pub(super) fn parent(hosts: &[Option<Host>], feature: usize) -> Option<usize> {
+    let mut at = feature;
+    while let Some(Host::Along(host)) = hosts[at] {
+        at = host;
+    }
+    match hosts[at] {
+        Some(Host::In(parent)) => Some(parent),
+        _ => None,
+    }
 }
 
 /// Where each id stands first in the list.

@@ -1,6 +1,6 @@
 //! The list of features: ids, parents, levels, counts; what a feature is goes by its kind.
 
-use super::family::first_of_each_id;
+use super::family::{first_of_each_id, parent};
 use crate::model::checker::Checker;
 use crate::model::domain::Domain;
 use crate::model::draft::{Draft, Family, FeatureFile};
@@ -8,6 +8,7 @@ use crate::model::kinds;
 use crate::model::kinds::keys::Keys;
 use crate::model::nature::{Children, Copies, Nature, Taking, Within};
 use crate::model::read::{Any, Field};
+use crate::model::references::Host;
 use crate::model::spec::Feature;
 use crate::model::tree::{NodeId, Value, quoted};
 use crate::model::values::facies::{FaciesList, is_id};
@@ -52,9 +53,9 @@ impl Checker<'_> {
         let drafts: Vec<Draft> = nodes.iter().filter_map(|&node| self.draft(node)).collect();
         let index = first_of_each_id(&drafts);
         self.check_ids(&drafts, &index);
-        let parents = self.parents(&drafts, &index);
-        let lineages = self.lineages(&drafts, &parents);
-        self.note_disabled_parents(&drafts, &parents);
+        let hosts = self.hosts(&drafts, &index);
+        let lineages = self.lineages(&drafts, &hosts);
+        self.note_disabled_hosts(&drafts, &hosts);
         let kinds = kinds::names();
         let mut features = Vec::new();
         for (i, draft) in drafts.iter().enumerate() {
@@ -63,16 +64,22 @@ impl Checker<'_> {
                 index: &index,
                 own: i,
                 lineages: &lineages,
+                hosts: &hosts,
                 facies,
                 kinds: &kinds,
             };
             let feature = self.feature(draft, &family, domain);
             features.extend(feature.map(|feature| Feature {
-                parent: parents[i],
+                parent: parent(&hosts, i),
+                along: match hosts[i] {
+                    Some(Host::Along(trunk)) => Some(trunk),
+                    _ => None,
+                },
                 level: lineages[i].level,
                 ..feature
             }));
         }
+        self.check_references(&drafts, &hosts, &features);
         (self.reader.found() == before).then_some(features)
     }
 
@@ -116,6 +123,10 @@ impl Checker<'_> {
             Some(Field::Good(at, parent)) => Some((*at, parent.clone())),
             _ => None,
         };
+        let along = match &file.along {
+            Some(Field::Good(at, along)) => Some((*at, along.clone())),
+            _ => None,
+        };
         Some(Draft {
             node,
             id,
@@ -124,6 +135,7 @@ impl Checker<'_> {
             kind,
             level,
             parent,
+            along,
             count,
             file,
         })
@@ -200,12 +212,18 @@ impl Checker<'_> {
             }
         };
         match nature.within {
+            // Both keys are a defect already.
+            Within::Along { kind, remedy } if draft.along.is_none() => {
+                let message = format!("{has}, but a {} goes along a {kind}", nature.name);
+                self.reader.wrong(*at, message, remedy);
+            }
+            Within::Along { .. } => {}
             Within::Domain { why, remedy } => {
                 self.reader.wrong(*at, format!("{has}, but {why}"), remedy);
             }
             Within::Unit { remedy } => fits(remedy, |kind, _| kind.is_base, ""),
             Within::Only { kind, remedy } => fits(remedy, |kind, wanted| kind.name == wanted, kind),
-            Within::Anything => {
+            Within::Anything | Within::AnythingOrAlong { .. } => {
                 if let Some((parent, Nature { children, .. })) = of_kind
                     && let Children::None { what, instead } = children
                 {
@@ -217,6 +235,52 @@ impl Checker<'_> {
                     self.reader.wrong(*at, message, remedy);
                 }
             }
+        }
+    }
+
+    /// A feature may go along what its kind says.
+    fn check_along(&self, draft: &Draft, nature: Nature, family: &Family<'_>) {
+        let Some((at, name)) = &draft.along else {
+            if let Within::Along { kind, .. } = nature.within
+                && draft.parent.is_none()
+                && !draft.wrong_along()
+            {
+                let example = format!("along = \"the-{kind}\"");
+                let (reader, own) = (&self.reader, &draft.name);
+                reader.missing(draft.node, own, "along", &example);
+            }
+            return;
+        };
+        // Both keys, an unknown feature or an unknown kind are defects already.
+        let other = family.index.get(name).map(|at| &family.drafts[*at]);
+        let Some(other) = other.filter(|_| draft.parent.is_none()) else {
+            return;
+        };
+        let (Within::Along { kind, remedy } | Within::AnythingOrAlong { kind, remedy }) =
+            nature.within
+        else {
+            self.reader.wrong(
+                *at,
+                format!(
+                    "{} goes along {}, but nothing of the kind {} does so",
+                    draft.name,
+                    quoted(name),
+                    nature.name
+                ),
+                "leave `along` out",
+            );
+            return;
+        };
+        if let Some(other) = other.kind
+            && other.name != kind
+        {
+            let message = format!(
+                "{} goes along {}, which is of the kind {}",
+                draft.name,
+                quoted(name),
+                other.name
+            );
+            self.reader.wrong(*at, message, remedy);
         }
     }
 
@@ -252,6 +316,7 @@ impl Checker<'_> {
         let kind = draft.kind.and_then(|nature| {
             self.check_nature(draft, nature);
             self.check_parent(draft, nature, family);
+            self.check_along(draft, nature, family);
             let read = kinds::named(nature.name)?.read;
             read(&mut Keys {
                 checker: &mut *self,
@@ -318,6 +383,7 @@ impl Checker<'_> {
             count: usize::try_from(draft.count?.1).ok()?,
             level: 0,
             parent: None,
+            along: None,
             facies: facies?,
             properties: properties?,
             removes: removes?,

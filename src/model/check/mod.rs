@@ -4,7 +4,9 @@ mod domain;
 mod facies;
 mod family;
 mod feature;
+mod references;
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::checker::Checker;
@@ -58,6 +60,7 @@ impl Model {
             reader: Reader::new(&tree, defects),
             texts: &texts,
             notes: Vec::new(),
+            referring: RefCell::default(),
             origin: [0.0; 3],
         };
         let (model, defects) = checker.model(parsed.root);

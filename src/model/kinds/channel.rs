@@ -12,11 +12,16 @@ use crate::features::body::Body;
 use crate::features::channel::{ChannelDesign, Origin};
 use crate::features::profile::Profile as Along;
 use crate::features::reach::Reach;
+use crate::model::checker::Reported;
 use crate::model::domain::Domain;
+use crate::model::draft::Draft;
 use crate::model::draws::{Draws, Reason, diagonal};
-use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::interior::Interior;
+use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
+use crate::model::references::Reference;
 use crate::model::tree::{NodeId, quoted};
+use crate::model::values::junction::{Joining, Joins, JoinsFile};
 use crate::model::values::limits::{ANY, ASYMMETRY, BANK_ANGLE, POSITIVE};
 use crate::model::values::profile::Profile;
 use crate::model::values::trajectory::{self, TrajectorySpec};
@@ -49,6 +54,8 @@ pub struct ChannelSpec {
     pub origin: SectionOrigin,
     /// The way that the channel takes.
     pub trajectory: TrajectorySpec,
+    /// Where it joins the channel that it goes along.
+    pub joins: Option<Joins>,
     /// A new section is set where the direction has turned by more than this, degrees.
     pub angle_limit_deg: f64,
     /// How far the thalweg and the rims may lie from where they belong, as a fraction of the width.
@@ -93,6 +100,9 @@ pub(crate) struct ChannelFile {
     /// The way that the channel takes, in plan.
     #[schemars(schema_with = "trajectory::schema")]
     pub(crate) trajectory: Field<Any>,
+    /// Where and how it joins the channel that it goes `along`: a tributary, whose trajectory leads on to that place; { at, angle_deg, side }.
+    #[schemars(with = "Option<JoinsFile>")]
+    pub(crate) joins: Option<Field<Any>>,
     /// A new section is set where the direction has turned by more than this, in degrees; 15 if left out.
     #[schemars(range(min = 0.1, max = 90))]
     pub(crate) angle_limit_deg: Option<Field<f64>>,
@@ -109,7 +119,10 @@ impl Kind for ChannelSpec {
     const NATURE: Nature = Nature {
         name: "channel",
         copies: Copies::Any,
-        within: Within::Anything,
+        within: Within::AnythingOrAlong {
+            kind: "channel",
+            remedy: "name the feature of kind = \"channel\" that the tributary joins",
+        },
         children: Children::Any,
         taking: Taking::ByRules,
         volumes: Volumes::One,
@@ -118,6 +131,8 @@ impl Kind for ChannelSpec {
                     `from` and `to`)",
         apart: "change `top`, `depth` or `width` of {name} by {by} or more, or its trajectory",
     };
+
+    const GIVES: Gives = Gives::Way;
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         ChannelFile::json_schema(generator)
@@ -146,12 +161,13 @@ impl Kind for ChannelSpec {
         let example = "trajectory = { kind = \"line\", azimuth_deg = 45 }";
         let trajectory = keys
             .need(file.trajectory, "trajectory", example)
-            .and_then(|(node, Any)| Some((node, keys.checker.trajectory(node, keys.draft)?)));
+            .and_then(|(node, Any)| Some((node, keys.checker.trajectory(node, keys.family)?)));
         if let (Some((node, trajectory)), Some(domain)) = (&trajectory, keys.domain) {
             let name = &keys.draft.name;
             keys.checker
                 .note_far_trajectory(*node, trajectory, name, domain);
         }
+        let joins = keys.junction(file.joins);
         let angle = keys.number_in(
             file.angle_limit_deg,
             DEFAULT_ANGLE_LIMIT_DEG,
@@ -174,6 +190,7 @@ impl Kind for ChannelSpec {
             top: plain(top.ok()?),
             origin: origin?,
             trajectory: trajectory?.1,
+            joins: joins.ok()?,
             angle_limit_deg: angle?,
             tolerance_fraction: tolerance?,
         })
@@ -186,12 +203,20 @@ impl Kind for ChannelSpec {
         let asymmetry = draws.profile(&self.asymmetry, "asymmetry")?;
         let left_angle = draws.angle(self.left_angle_deg.as_ref(), "left_angle_deg")?;
         let right_angle = draws.angle(self.right_angle_deg.as_ref(), "right_angle_deg")?;
-        let top = match &self.top {
-            Some(top) => draws.profile(top, "top")?,
-            None => any_top(depth.range().1, domain, draws)?,
+        let joining = match &self.joins {
+            Some(joins) => Some(Joining::draw(joins, site.reach()?, draws)?),
+            None => None,
+        };
+        let top = match (&self.top, &joining) {
+            (Some(top), _) => draws.profile(top, "top")?,
+            (None, Some(joining)) => Along::Constant(joining.top(depth.at(1.0))),
+            (None, None) => any_top(depth.range().1, domain, draws)?,
         };
         let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
-        let trajectory = trajectory::trajectory(&self.trajectory, domain, overshoot, draws)?;
+        let mut trajectory = trajectory::trajectory(&self.trajectory, site, overshoot, draws)?;
+        if let Some(joining) = &joining {
+            trajectory = joining.way(&trajectory, width.at(1.0))?;
+        }
         let design = ChannelDesign {
             width,
             depth,
@@ -209,11 +234,23 @@ impl Kind for ChannelSpec {
         let trough = design
             .build(&trajectory)
             .map_err(|error| (error.reason(), error.to_string()))?;
-        let reach = Reach::new(design, Arc::new(trajectory), &trough);
+        let mut mouth = 1.0;
+        if let (Some(joining), Some((name, trunk))) = (&joining, site.host)
+            && let Some(trunk) = trunk.parts.first()
+        {
+            let inside = Interior::of(&trunk.body)
+                .map_err(|error| ("no trunk", format!("it cannot join {name}: {error}")))?;
+            mouth = joining.mouth(&trough, &trajectory, &inside, name)?;
+        }
+        let reach = Reach::new(design, Arc::new(trajectory), &trough).with_mouth(mouth);
         Ok(Made {
             frame: Frame::Along(Arc::new(reach)),
             ..Made::body(Body::Trough(trough), draws.taken())
         })
+    }
+
+    fn refers(&self) -> Vec<&Reference> {
+        self.trajectory.refers()
     }
 
     /// Channels thin out to nothing at their banks, and leave strips of what they cut: facets on both sides cut each other
@@ -260,6 +297,34 @@ fn any_top(deepest: f64, domain: &Domain, draws: &mut Draws<'_>) -> Result<Along
 }
 
 impl Keys<'_, '_> {
+    /// What goes along a channel joins it, and nothing else does.
+    fn junction(&self, field: Option<Field<Any>>) -> Result<Option<Joins>, Reported> {
+        let Draft {
+            name, node, along, ..
+        } = self.draft;
+        match (field, along) {
+            (None, None) => Ok(None),
+            (None, Some((at, trunk))) => {
+                let message = format!("{name} goes along {}, but does not join it", quoted(trunk));
+                let remedy = "add where: joins = { at = 0.6, angle_deg = 60, side = \"left\" }; or leave `along` out";
+                self.checker.reader.wrong(*at, message, remedy);
+                Err(Reported)
+            }
+            (Some(field), along) => {
+                let (at, Any) = field.good().ok_or(Reported)?;
+                if along.is_none() && !self.draft.wrong_along() {
+                    self.checker.reader.missing(
+                        *node,
+                        name,
+                        "along",
+                        "along = \"the-trunk\", the channel that it joins",
+                    );
+                }
+                self.checker.joins(at, name).map(Some).ok_or(Reported)
+            }
+        }
+    }
+
     fn section_origin(&self, node: NodeId, word: &str) -> Option<SectionOrigin> {
         match word {
             "thalweg" => Some(SectionOrigin::Thalweg),

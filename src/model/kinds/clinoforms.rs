@@ -15,7 +15,7 @@ use crate::features::body::Body;
 use crate::features::side::{Borders, Ends, Side};
 use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
-use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::suggest;
 use crate::model::tree::quoted;
@@ -151,6 +151,8 @@ impl Kind for ClinoformsSpec {
         placed_by: "set its `first`",
         apart: "change `first`, `spacing`, `length` or `toe` of the clinoforms a little, or the surface that they run along",
     };
+
+    const GIVES: Gives = Gives::Sheets;
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         ClinoformsFile::json_schema(generator)

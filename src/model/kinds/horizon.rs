@@ -12,7 +12,7 @@ use crate::features::body::Body;
 use crate::features::side::Side;
 use crate::model::checker::Extent;
 use crate::model::draws::{Draws, Reason};
-use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::tree::{NodeId, quoted};
 use crate::model::values::surface::{HorizonSurface, horizon_surface};
@@ -61,6 +61,8 @@ impl Kind for HorizonSpec {
         placed_by: "set its `surface`",
         apart: "raise or lower {name} by {by} or more there",
     };
+
+    const GIVES: Gives = Gives::Sheets;
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
         HorizonFile::json_schema(generator)

@@ -6,7 +6,7 @@ use crate::model::checker::{Checker, Reported};
 use crate::model::domain::Domain;
 use crate::model::draft::{Draft, Family};
 use crate::model::read::{Any, Field};
-use crate::model::tree::NodeId;
+use crate::model::tree::{NodeId, quoted};
 use crate::model::values::limits::Limits;
 use crate::model::values::profile::{Profile, profile};
 use crate::model::values::quantity::{Quantity, quantity};
@@ -37,15 +37,44 @@ impl<'t> Keys<'_, 't> {
         self.checker.reader.need(field, *node, name, key, example)
     }
 
-    /// How many features of the same kind and with the same parent come before it.
+    /// How many features of the same kind, with the same parent or along the same, come before it.
     pub(crate) fn elder_siblings(&self) -> usize {
         let named = |draft: &Draft| {
-            let parent = draft.parent.as_ref().map(|(_, id)| id.clone());
-            (draft.kind.map(|kind| kind.name), parent)
+            let host = draft.along.as_ref().or(draft.parent.as_ref());
+            (
+                draft.kind.map(|kind| kind.name),
+                host.map(|(_, id)| id.clone()),
+            )
         };
         let own = named(self.draft);
         let elder = &self.family.drafts[..self.family.own];
         elder.iter().filter(|draft| named(draft) == own).count()
+    }
+
+    /// No other feature may have the id of the feature with one of these words behind it: so its volumes are called.
+    pub(crate) fn free_names(&self, words: &[&str]) -> Option<()> {
+        let id = self.draft.id();
+        for word in words {
+            let name = format!("{id}-{word}");
+            if let Some((node, _)) = self
+                .family
+                .index
+                .get(&name)
+                .and_then(|at| self.family.drafts[*at].id.as_ref())
+            {
+                self.checker.reader.wrong(
+                    *node,
+                    format!(
+                        "the id {} is also the name of a volume of {}",
+                        quoted(&name),
+                        self.draft.name
+                    ),
+                    "choose another id",
+                );
+                return None;
+            }
+        }
+        Some(())
     }
 
     /// A profile that must be there, with its place.

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::features::body::Body;
 use crate::features::fabric::Fabric;
 use crate::features::horizon::Horizon;
@@ -9,6 +11,7 @@ use crate::features::reach::Reach;
 use crate::model::domain::Domain;
 use crate::model::draws::Reason;
 use crate::model::interior::Interior;
+use crate::model::references::Reference;
 use crate::model::values::surface::HorizonSurface;
 
 /// Where one instance is made.
@@ -20,8 +23,12 @@ pub(crate) struct Site<'a> {
     pub(crate) interior: Option<&'a Interior>,
     /// Of a base: its surface, as decided among all of them, and what was drawn for it.
     pub(crate) surface: Option<(&'a Horizon, &'a [(String, f64)])>,
-    /// What it is placed by: the parent's frame, or that of the domain.
+    /// What it is placed by: the frame of its parent, or of what it goes along, or that of the domain.
     pub(crate) frame: &'a Frame,
+    /// What it lies in or goes along, with its name.
+    pub(crate) host: Option<(&'a str, &'a Made)>,
+    /// What was made of all that it refers to.
+    pub(crate) others: &'a [(&'a Reference, &'a Made)],
     /// What bounds its unit above, for kinds that ask for it.
     pub(crate) top: Option<&'a Horizon>,
     /// How far it moves so that contacts which coincide are decided by age (m): less than nothing, and less for younger
@@ -29,16 +36,72 @@ pub(crate) struct Site<'a> {
     pub(crate) nudge: f64,
 }
 
-impl Site<'_> {
-    /// The channel that it lies in.
-    pub(crate) fn reach(&self) -> Result<&Reach, Reason> {
-        match self.frame {
-            Frame::Along(reach) => Ok(reach),
-            Frame::None | Frame::Unit(_) => {
-                Err(("no channel", "its parent is no channel".to_owned()))
-            }
+impl<'a> Site<'a> {
+    /// The channel that it lies in or goes along.
+    pub(crate) fn reach(&self) -> Result<&'a Reach, Reason> {
+        self.frame
+            .reach()
+            .ok_or_else(|| ("no channel", "its parent is no channel".to_owned()))
+    }
+
+    /// Whether anything between two corners can lie in the domain.
+    pub(crate) fn meets(&self, (low, high): (DVec3, DVec3)) -> bool {
+        let axes = [self.domain.x, self.domain.y, self.domain.z];
+        axes.into_iter()
+            .enumerate()
+            .all(|(axis, [from, to])| low[axis] < to && high[axis] > from)
+    }
+
+    /// What was made of something that its kind refers to.
+    pub(crate) fn other(&self, reference: &Reference) -> Result<Other<'a>, Reason> {
+        let found = self.others.iter().find(|other| other.0 == reference);
+        let Some((_, made)) = found else {
+            let message = "what it refers to takes no part".to_owned();
+            return Err(("no referent", message));
+        };
+        let part = if reference.part.is_empty() {
+            None
+        } else {
+            let is_it = |part: &&Part| part.name == reference.part;
+            Some(made.parts.iter().find(is_it).ok_or_else(|| {
+                let last = made.parts.last().map_or("", |part| part.name.as_str());
+                let message = format!(
+                    "it refers to number `{}` of something of which the last one is `{last}` with this seed",
+                    reference.part
+                );
+                ("no such referent", message)
+            })?)
+        };
+        Ok(Other { made, part })
+    }
+
+    /// The channel that something refers to.
+    pub(crate) fn other_reach(&self, reference: &Reference) -> Result<&'a Arc<Reach>, Reason> {
+        let Other { made, part } = self.other(reference)?;
+        match (part, &made.frame) {
+            (None, Frame::Along(reach)) => Ok(reach),
+            _ => Err(("no channel", "it refers to what is no channel".to_owned())),
         }
     }
+}
+
+impl Frame {
+    /// The channel that it is.
+    fn reach(&self) -> Option<&Reach> {
+        match self {
+            Self::Along(reach) => Some(reach),
+            Self::None | Self::Unit(_) => None,
+        }
+    }
+}
+
+/// What was made of something that is referred to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Other<'a> {
+    /// All of the instance.
+    pub(crate) made: &'a Made,
+    /// The part of it that is named, if one is.
+    pub(crate) part: Option<&'a Part>,
 }
 
 /// One instance: the volumes that it makes, in order of evaluation, and what its children are placed by.

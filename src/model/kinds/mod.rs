@@ -11,14 +11,17 @@ pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
 pub(crate) mod lag;
+pub(crate) mod levee;
 pub(crate) mod made;
 pub(crate) mod point_bars;
+pub(crate) mod splay;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::draft::FeatureFile;
 use super::draws::{Draws, Reason};
-use super::nature::Nature;
+use super::nature::{Gives, Nature};
+use super::references::Reference;
 use super::tables::by_kind_but;
 use channel::ChannelSpec;
 use clinoforms::ClinoformsSpec;
@@ -26,13 +29,18 @@ use ellipsoid::EllipsoidSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use lag::LagSpec;
+use levee::LeveeSpec;
 use made::{Base, Bound, Made, Outcome, Site, VolumeName};
 use point_bars::PointBarsSpec;
+use splay::SplaySpec;
 
 /// A kind of feature: how its table is read, and what one instance of it is.
 pub(crate) trait Kind: Sized + Into<FeatureKind> {
     /// What is known of it before its table is read.
     const NATURE: Nature;
+
+    /// What features that refer to it find in what was made of it.
+    const GIVES: Gives = Gives::Nothing;
 
     /// Its table, for editors.
     fn schema(generator: &mut SchemaGenerator) -> Schema;
@@ -58,6 +66,11 @@ pub(crate) trait Kind: Sized + Into<FeatureKind> {
         None
     }
 
+    /// What it refers to; its site has what was made of that.
+    fn refers(&self) -> Vec<&Reference> {
+        Vec::new()
+    }
+
     /// Whether it is placed by what its parent holds; its site has that then.
     fn wants_interior(&self) -> bool {
         false
@@ -79,6 +92,7 @@ pub(crate) trait Kind: Sized + Into<FeatureKind> {
 /// What the program's lists need of a kind, without its type.
 pub(crate) struct Entry {
     pub(crate) nature: Nature,
+    pub(crate) gives: Gives,
     pub(crate) schema: fn(&mut SchemaGenerator) -> Schema,
     pub(crate) read: fn(&mut Keys<'_, '_>) -> Option<FeatureKind>,
     pub(crate) meshing: fn(&[Outcome<'_>]) -> Option<String>,
@@ -90,6 +104,7 @@ const fn entry<K: Kind>() -> Entry {
     }
     Entry {
         nature: K::NATURE,
+        gives: K::GIVES,
         schema: K::schema,
         read: read::<K>,
         meshing: K::meshing,
@@ -154,6 +169,12 @@ macro_rules! kinds {
                 }
             }
 
+            pub(crate) fn refers(&self) -> Vec<&Reference> {
+                match self {
+                    $(Self::$variant(spec) => spec.refers(),)+
+                }
+            }
+
             pub(crate) fn wants_interior(&self) -> bool {
                 match self {
                     $(Self::$variant(spec) => spec.wants_interior(),)+
@@ -182,6 +203,10 @@ kinds! {
     Lag(LagSpec),
     /// Packages between lateral-accretion surfaces at the inner bends of a channel.
     PointBars(PointBarsSpec),
+    /// Wedges on the banks of a channel.
+    Levee(LeveeSpec),
+    /// A lobe of what a flood carried through a bank of a channel.
+    Splay(SplaySpec),
 }
 
 impl FeatureKind {
@@ -199,6 +224,11 @@ pub(crate) fn names() -> Vec<&'static str> {
 /// The kind of this name.
 pub(crate) fn named(name: &str) -> Option<&'static Entry> {
     KINDS.iter().find(|kind| kind.nature.name == name)
+}
+
+/// What features that refer to a kind find in what was made of it.
+pub(crate) fn gives(name: &str) -> Gives {
+    named(name).map_or(Gives::Nothing, |kind| kind.gives)
 }
 
 /// The list of features, for editors.

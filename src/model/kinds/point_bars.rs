@@ -10,7 +10,6 @@ use crate::features::bends::bends;
 use crate::features::body::Body;
 use crate::features::point_bars::{PointBar, PointBarError, PointBarsDesign, Slope};
 use crate::model::checker::Reported;
-use crate::model::domain::Domain;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -256,7 +255,11 @@ impl Kind for PointBarsSpec {
                 (reason, format!("bar {}: {error}", at + 1))
             })?;
             // Bars keep their numbers whatever the domain shows of them.
-            if meets(&bar, site.domain) {
+            if bar
+                .packages
+                .iter()
+                .any(|package| site.meets(package.bounds()))
+            {
                 self.add(at + 1, bar, &drawn, &mut parts);
             }
         }
@@ -289,16 +292,6 @@ impl Kind for PointBarsSpec {
         }
         words.next().is_none().then_some(VolumeName::Volume)
     }
-}
-
-/// Whether anything of a bar can lie in the domain.
-fn meets(bar: &PointBar, domain: &Domain) -> bool {
-    bar.packages.iter().any(|package| {
-        let (low, high) = package.bounds();
-        let axes = [domain.x, domain.y, domain.z].into_iter().enumerate();
-        axes.into_iter()
-            .all(|(axis, [from, to])| low[axis] < to && high[axis] > from)
-    })
 }
 
 impl PointBarsSpec {

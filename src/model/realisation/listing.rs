@@ -13,6 +13,7 @@ use crate::features::horizon::Horizon;
 use crate::model::draws::Key;
 use crate::model::kinds::made::Bound;
 use crate::model::nature::Copies;
+use crate::model::references::{self, ByInstance, Host, Hosts, Reference};
 use crate::model::selection::Selection;
 use crate::model::spec::{Feature, Model};
 use crate::model::values::surface::{self, HorizonSurface};
@@ -25,10 +26,16 @@ pub(super) struct Due {
     pub(super) name: String,
     /// Numbers of the instance and its ancestors, outermost first: the key of its draws.
     pub(super) number: String,
-    /// The parent's place in the list.
+    /// The parent's place in the list; of a companion, that of what it goes along.
     pub(super) parent: Option<usize>,
-    /// How many ancestors it has.
-    pub(super) depth: usize,
+    /// Of a companion: the place in the list of what it goes along, which comes after it.
+    pub(super) along: Option<usize>,
+    /// Places in the list of what it refers to, in the order in which its kind does.
+    pub(super) referents: Vec<Option<usize>>,
+    /// It is made after all of lower rank.
+    pub(super) rank: usize,
+    /// Whether it takes part; otherwise it is made for what refers to it.
+    pub(super) takes_part: bool,
     /// What bounds its unit above, if it asked for that.
     pub(super) top: Option<Horizon>,
     /// How far it moves so that contacts which coincide are decided by age (m).
@@ -44,6 +51,16 @@ pub(super) struct Listing<'a> {
     horizons: BTreeMap<usize, DrawnHorizon>,
     /// By feature: the horizon that lies nowhere below this other one.
     above: BTreeMap<usize, usize>,
+    /// Features by what they go with.
+    guests: BTreeMap<Option<Host>, Vec<usize>>,
+    /// By feature: whether it is made even if it takes no part, since another one refers to it.
+    is_wanted: Vec<bool>,
+    /// By feature.
+    ranks: Vec<usize>,
+    /// Instances that others may refer to.
+    instances: ByInstance<usize>,
+    /// Features and numbers of all instances on the way to each.
+    ways: Vec<Vec<(usize, usize)>>,
     /// The domain's own base and top.
     bounds: [Option<Horizon>; 2],
     /// What was drawn for them.
@@ -76,6 +93,11 @@ impl<'a> Listing<'a> {
             due: Vec::new(),
             horizons: BTreeMap::new(),
             above: BTreeMap::new(),
+            guests: guests(model),
+            is_wanted: wanted(model, selection),
+            ranks: references::ranks(&waits(model)),
+            instances: BTreeMap::new(),
+            ways: Vec::new(),
             bounds: [None, None],
             drawn: Vec::new(),
             step,
@@ -169,57 +191,121 @@ impl<'a> Listing<'a> {
         Ok(Some(horizon))
     }
 
-    /// Lists the instances of all features with this parent (feature, place in the list): depth first, children directly after
-    /// their parent.
-    pub(super) fn instances(
+    /// Lists all instances, depth first: companions directly before what they go along, children directly after their parent.
+    pub(super) fn list(&mut self) -> Result<(), RealisationError> {
+        let everything = Around {
+            parent: None,
+            path: String::new(),
+            way: Vec::new(),
+            takes_part: true,
+        };
+        self.guests_of(None, &everything)?;
+        self.resolve();
+        Ok(())
+    }
+
+    /// Lists the instances of all features that go with the same; gives their places in the list.
+    fn guests_of(
         &mut self,
-        parent: Option<(usize, usize)>,
-        path: &str,
-        numbers: &str,
-    ) -> Result<(), RealisationError> {
-        let model = self.model;
-        for (index, feature) in model.features.iter().enumerate() {
-            if feature.parent != parent.map(|parent| parent.0)
-                || !self.selection.keeps_feature(feature)
-            {
-                continue;
-            }
-            let nature = feature.kind.nature();
+        host: Option<Host>,
+        around: &Around,
+    ) -> Result<Vec<usize>, RealisationError> {
+        let mut listed = Vec::new();
+        for index in self.guests.get(&host).cloned().unwrap_or_default() {
+            let feature = &self.model.features[index];
+            let keeps = around.takes_part && self.selection.keeps_feature(feature);
             for number in 1..=feature.count {
-                let own = if feature.count == 1 {
-                    feature.id.clone()
-                } else {
-                    format!("{}-{number}", feature.id)
-                };
-                let name = format!("{path}{own}");
-                if !self.selection.keeps_volume(&name) {
-                    continue;
+                if keeps || self.is_wanted[index] {
+                    listed.extend(self.instance(index, number, keeps, around)?);
                 }
-                // Of what there is only one, the draws are the same wherever it lies.
-                let key = match nature.copies {
-                    Copies::One(_) => number.to_string(),
-                    Copies::Any | Copies::OneEach(_) => format!("{numbers}{number}"),
-                };
-                let top = feature.kind.top().map(|top| self.top(feature, top));
-                let due = Due {
-                    feature: index,
-                    name: name.clone(),
-                    number: key,
-                    parent: parent.map(|parent| parent.1),
-                    depth: numbers.matches('.').count(),
-                    top: top.transpose()?,
-                    nudge: self.nudge(nature.name),
-                };
-                let at = self.due.len();
-                self.due.push(due);
-                self.instances(
-                    Some((index, at)),
-                    &format!("{name}/"),
-                    &format!("{numbers}{number}."),
-                )?;
             }
         }
-        Ok(())
+        Ok(listed)
+    }
+
+    /// Lists an instance with its companions and children, unless it is left out and nobody wants it.
+    fn instance(
+        &mut self,
+        index: usize,
+        number: usize,
+        keeps: bool,
+        around: &Around,
+    ) -> Result<Option<usize>, RealisationError> {
+        let feature = &self.model.features[index];
+        let own = if feature.count == 1 {
+            feature.id.clone()
+        } else {
+            format!("{}-{number}", feature.id)
+        };
+        let name = format!("{}{own}", around.path);
+        let takes_part = keeps && self.selection.keeps_volume(&name);
+        if !takes_part && !self.is_wanted[index] {
+            return Ok(None);
+        }
+        let mut way = around.way.clone();
+        way.push((index, number));
+        let mut within = Around {
+            parent: around.parent,
+            path: format!("{name}/"),
+            way: way.clone(),
+            takes_part,
+        };
+        let companions = self.guests_of(Some(Host::Along(index)), &within)?;
+        let at = self.due.len();
+        for companion in companions {
+            self.due[companion].along = Some(at);
+        }
+        let nature = feature.kind.nature();
+        let numbers: Vec<usize> = way.iter().map(|one| one.1).collect();
+        // Of what there is only one, the draws are the same wherever it lies.
+        let key = match nature.copies {
+            Copies::One(_) => number.to_string(),
+            Copies::Any | Copies::OneEach(_) => key(&numbers),
+        };
+        let top = feature.kind.top();
+        let top = top.map(|top| self.top(feature, top, takes_part));
+        let due = Due {
+            feature: index,
+            name,
+            number: key,
+            parent: around.parent,
+            along: None,
+            referents: Vec::new(),
+            rank: self.ranks[index],
+            takes_part,
+            top: top.transpose()?,
+            nudge: if takes_part {
+                self.nudge(nature.name)
+            } else {
+                0.0
+            },
+        };
+        self.due.push(due);
+        self.ways.push(way);
+        if self.is_wanted[index] {
+            self.instances.insert((index, numbers), at);
+        }
+        within.parent = Some(at);
+        self.guests_of(Some(Host::In(index)), &within)?;
+        Ok(Some(at))
+    }
+
+    /// Finds what instances refer to.
+    fn resolve(&mut self) {
+        let features = &self.model.features;
+        let hosts = Hosts {
+            host: &|at| features[at].host().map(Host::feature),
+            count: &|at| features[at].count,
+        };
+        for (due, way) in self.due.iter_mut().zip(&self.ways) {
+            // All that anybody refers to is listed, and a checked model names nothing of which there is no such number.
+            let find = |reference: &Reference| {
+                let numbers = hosts.instance(way, reference)?;
+                self.instances.get(&(reference.feature, numbers)).copied()
+            };
+            let refers = features[due.feature].kind.refers();
+            due.referents = refers.into_iter().map(find).collect();
+        }
     }
 
     /// How far the next instance of a kind moves so that contacts which coincide are decided by age. The oldest one moves
@@ -232,7 +318,12 @@ impl<'a> Listing<'a> {
 
     /// What bounds a unit above: the base that a feature names, or, if that takes no part, the next one that does, or the
     /// domain's top. So it is for a feature that names none, too.
-    fn top(&mut self, feature: &Feature, top: Bound) -> Result<Horizon, RealisationError> {
+    fn top(
+        &mut self,
+        feature: &Feature,
+        top: Bound,
+        takes_part: bool,
+    ) -> Result<Horizon, RealisationError> {
         let Bound::Horizon(own) = top else {
             return self.domain_bound(true);
         };
@@ -242,7 +333,7 @@ impl<'a> Listing<'a> {
             base.kind.base().is_some() && self.selection.keeps_feature(base)
         };
         let top = (own..features.len()).find(stands);
-        if top != Some(own) {
+        if top != Some(own) && takes_part {
             let above = top.map_or("the domain's top", |top| features[top].id.as_str());
             self.decisions.push(format!(
                 "{} reaches up to {above}: {}, its top, takes no part",
@@ -278,6 +369,73 @@ impl<'a> Listing<'a> {
         let [base, top] = self.bounds.each_ref().map(Option::as_ref);
         Extent::new(low, high, base, top).map_err(|error| impossible_domain(&error))
     }
+}
+
+/// Where instances are listed.
+struct Around {
+    /// The place in the list of what they lie in.
+    parent: Option<usize>,
+    /// What stands before their names.
+    path: String,
+    /// Features and numbers of what they go with, the outermost first.
+    way: Vec<(usize, usize)>,
+    takes_part: bool,
+}
+
+/// The key of draws: numbers of an instance and its hosts.
+fn key(numbers: &[usize]) -> String {
+    let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+    words.join(".")
+}
+
+/// Features by what they go with, in the order of the list.
+fn guests(model: &Model) -> BTreeMap<Option<Host>, Vec<usize>> {
+    let mut guests: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    for (index, feature) in model.features.iter().enumerate() {
+        guests.entry(feature.host()).or_default().push(index);
+    }
+    guests
+}
+
+/// By feature, what is made before it.
+fn waits(model: &Model) -> references::Waits {
+    let waits = |feature: &Feature| {
+        let host = feature.host().map(Host::feature);
+        let referents = feature.kind.refers().into_iter().map(|one| one.feature);
+        host.into_iter().chain(referents).collect()
+    };
+    model.features.iter().map(waits).collect()
+}
+
+/// By feature: whether what takes part, or what that is made by, refers to it or to something that goes with it.
+fn wanted(model: &Model, selection: &Selection) -> Vec<bool> {
+    let features = &model.features;
+    let mut is_wanted = vec![false; features.len()];
+    let takes_part = |index: &usize| {
+        let mut at = Some(*index);
+        while let Some(index) = at {
+            if !selection.keeps_feature(&features[index]) {
+                return false;
+            }
+            at = features[index].host().map(Host::feature);
+        }
+        true
+    };
+    let mut open: Vec<usize> = (0..features.len()).filter(takes_part).collect();
+    while let Some(index) = open.pop() {
+        let feature = &features[index];
+        let referents = feature.kind.refers().into_iter().map(|one| one.feature);
+        // What is wanted needs what it goes with.
+        let host = feature.host().map(Host::feature);
+        let host = host.filter(|_| is_wanted[index]);
+        for other in referents.chain(host) {
+            if !is_wanted[other] {
+                is_wanted[other] = true;
+                open.push(other);
+            }
+        }
+    }
+    is_wanted
 }
 
 fn impossible_domain(error: &impl ToString) -> RealisationError {

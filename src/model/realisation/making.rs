@@ -1,4 +1,4 @@
-//! Instances made: drawn and built, parents before their children.
+//! Instances made: drawn and built, each after its host and all that it refers to.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,22 +21,31 @@ pub(super) struct Built {
 /// Makes all instances, in the order of their list.
 pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, RealisationError> {
     let due = &list.due;
-    let deepest = due.iter().map(|one| one.depth).max().unwrap_or(0);
+    let highest = due.iter().map(|one| one.rank).max().unwrap_or(0);
     let domain = Frame::Unit(list.domain_bound(false)?);
     let mut built: Vec<Option<Built>> = due.iter().map(|_| None).collect();
-    for depth in 0..=deepest {
-        let generation: Vec<usize> = (0..due.len())
-            .filter(|at| due[*at].depth == depth)
-            .collect();
+    for rank in 0..=highest {
+        let generation: Vec<usize> = (0..due.len()).filter(|at| due[*at].rank == rank).collect();
         let interiors = interiors(model, due, &generation, &built)?;
         let make = |at: usize| {
             let one = &due[at];
-            let parent = one.parent.and_then(|parent| built[parent].as_ref());
+            let host = one.along.or(one.parent);
+            let host =
+                host.and_then(|host| Some((due[host].name.as_str(), &built[host].as_ref()?.made)));
+            let refers = model.features[one.feature].kind.refers();
+            let of = |other: Option<usize>| Some(&built[other?].as_ref()?.made);
+            let others: Vec<_> = refers
+                .into_iter()
+                .zip(&one.referents)
+                .filter_map(|(reference, other)| Some((reference, of(*other)?)))
+                .collect();
             let site = Site {
                 domain: &model.domain,
                 interior: one.parent.and_then(|parent| interiors.get(&parent)),
                 surface: list.surface(one.feature),
-                frame: parent.map_or(&domain, |parent| &parent.made.frame),
+                frame: host.map_or(&domain, |host| &host.1.frame),
+                host,
+                others: &others,
                 top: one.top.as_ref(),
                 nudge: one.nudge,
             };

@@ -32,6 +32,8 @@ fn volume(name: &str, parent: Option<usize>, from: Option<usize>) -> VolumeRules
         preserve: false,
         from,
         above: None,
+        piece_of: None,
+        along: None,
     }
 }
 

@@ -1,7 +1,9 @@
 //! Values that kinds of features share: each with its table, its checks, what editors are told of it, and its draws.
 
+pub(crate) mod bank;
 pub(crate) mod distribution;
 pub(crate) mod facies;
+pub(crate) mod junction;
 pub(crate) mod limits;
 pub(crate) mod profile;
 pub(crate) mod property;

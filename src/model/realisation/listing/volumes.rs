@@ -52,6 +52,15 @@ impl Volumes {
         let rock = background_rock
             .properties(model)
             .map_err(impossible("background"))?;
+        let asks = model
+            .features
+            .iter()
+            .any(|one| needs_fabric(model, &one.properties));
+        let frames = if asks {
+            built.iter().map(|one| one.made.frame.clone()).collect()
+        } else {
+            Vec::new()
+        };
         let mut adding = Adding {
             model,
             selection,
@@ -64,14 +73,20 @@ impl Volumes {
             },
             extent,
             firsts: Vec::with_capacity(built.len()),
-            frames: Vec::with_capacity(built.len()),
+            frames,
+            ends: Vec::with_capacity(built.len()),
             units: BTreeMap::new(),
             open: BACKGROUND,
         };
         for (due, built) in list.due.iter().zip(built) {
-            adding.add(due, built)?;
+            if due.takes_part {
+                adding.add(due, built)?;
+            } else {
+                adding.firsts.push(None);
+                adding.ends.push(adding.volumes.rules.len());
+            }
         }
-        Ok(adding.volumes)
+        Ok(adding.along(&list.due))
     }
 }
 
@@ -83,10 +98,12 @@ struct Adding<'a> {
     above: &'a BTreeMap<usize, usize>,
     volumes: Volumes,
     extent: &'a Extent,
-    /// By instance so far, its first volume.
-    firsts: Vec<usize>,
-    /// By instance so far, by what its children are placed.
+    /// By instance, by what its children are placed; empty if nothing asks how layers lie.
     frames: Vec<Frame>,
+    /// By instance so far, its first volume; none of what takes no part.
+    firsts: Vec<Option<usize>>,
+    /// By instance so far, what comes after its volumes.
+    ends: Vec<usize>,
     /// The volumes of those bases so far that take part, by feature.
     units: BTreeMap<usize, usize>,
     /// The unit above the last base so far.
@@ -108,7 +125,7 @@ impl Adding<'_> {
             .decisions
             .extend(decisions.map(|text| format!("{} {text}", feature.id)));
         self.check_left_out(due, nature, &parts)?;
-        let parent = due.parent.map(|parent| self.firsts[parent]);
+        let parent = due.parent.and_then(|parent| self.firsts[parent]);
         let above = self.above.get(&due.feature);
         let above = above.and_then(|below| self.units.get(below)).copied();
         let rejected = match nature.volumes {
@@ -117,8 +134,8 @@ impl Adding<'_> {
             nature::Volumes::Many { .. } => 0,
         };
         let fabrics = self.fabrics(due, feature, &parts, &frame)?;
-        self.frames.push(frame);
-        self.firsts.push(self.volumes.rules.len());
+        let first = self.volumes.rules.len();
+        self.firsts.push(Some(first));
         // By part, its volume, or of what takes no part what it would take from.
         let mut places: Vec<Option<usize>> = Vec::with_capacity(parts.len());
         for (at, part) in parts.into_iter().enumerate() {
@@ -138,6 +155,11 @@ impl Adding<'_> {
             rules.from = from;
             rules.above = above;
             rules.preserve |= part.from == TakesFrom::ParentItself;
+            // Parts of one name are one volume.
+            rules.piece_of = self.volumes.rules[first..]
+                .iter()
+                .position(|other| other.name == rules.name)
+                .map(|at| first + at);
             if let Some(facies) = part.facies {
                 rules.facies.clone_from(&self.model.facies[facies].name);
             }
@@ -171,6 +193,7 @@ impl Adding<'_> {
                 self.units.insert(due.feature, volume);
             }
         }
+        self.ends.push(self.volumes.rules.len());
         Ok(())
     }
 
@@ -188,10 +211,23 @@ impl Adding<'_> {
         let layers = Layers {
             extent: self.extent,
             own: frame,
-            parent: due.parent.map(|parent| &self.frames[parent]),
+            // A companion lies along what it goes along.
+            host: due.along.or(due.parent).map(|host| &self.frames[host]),
             top: due.top.as_ref(),
         };
         layers.of(parts).map_err(impossible(&due.name))
+    }
+
+    /// The volumes, of which companions now know what they go along: it comes after them.
+    fn along(mut self, due: &[Due]) -> Volumes {
+        for (at, due) in due.iter().enumerate() {
+            if let (Some(first), Some(along)) = (self.firsts[at], due.along) {
+                for rules in &mut self.volumes.rules[first..self.ends[at]] {
+                    rules.along = self.firsts[along];
+                }
+            }
+        }
+        self.volumes
     }
 
     /// Whether a part takes part: neither it nor what it is a part of is left out.
@@ -248,6 +284,8 @@ impl Adding<'_> {
             preserve: feature.preserve,
             from: None,
             above: None,
+            piece_of: None,
+            along: None,
         }
     }
 }
@@ -274,5 +312,7 @@ fn background(model: &Model) -> VolumeRules {
         preserve: false,
         from: None,
         above: None,
+        piece_of: None,
+        along: None,
     }
 }

@@ -22,6 +22,8 @@ fn body(name: &str) -> VolumeRules {
         preserve: false,
         from: None,
         above: None,
+        piece_of: None,
+        along: None,
     }
 }
 

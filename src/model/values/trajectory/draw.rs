@@ -8,15 +8,23 @@ use crate::features::trajectory::{Trajectory, TrajectoryError, azimuth_vector};
 use crate::model::domain::Domain;
 use crate::model::draws::{Draws, Reason};
 use crate::model::expression::Expression;
+use crate::model::kinds::made::Site;
 use crate::model::values::quantity::Quantity;
 
+/// The trajectory of an instance; one without a length runs as far past the domain as the overshoot says (m).
 pub(crate) fn trajectory(
     spec: &TrajectorySpec,
-    domain: &Domain,
+    site: &Site<'_>,
     overshoot: f64,
     draws: &mut Draws<'_>,
 ) -> Result<Trajectory, Reason> {
+    let domain = site.domain;
     let made = match spec {
+        TrajectorySpec::Like { other, offset } => {
+            let other = site.other_reach(other)?.trajectory();
+            let offset = draws.quantity(offset, "trajectory.offset")?;
+            other.beside(offset)
+        }
         TrajectorySpec::Line { from, to } => {
             let from = draws.point(from, "trajectory.from")?;
             let to = draws.point(to, "trajectory.to")?;
@@ -84,6 +92,7 @@ pub(crate) fn trajectory(
 
 fn reason(error: &TrajectoryError) -> &'static str {
     match error {
+        TrajectoryError::Folds { .. } => "the offset folds in a bend",
         TrajectoryError::NoMeander { .. } => "amplitude too large for the wavelength",
         TrajectoryError::TooManyMeanders { .. } => "wavelength too short for the extent",
         _ => "impossible trajectory",

@@ -10,7 +10,8 @@ use serde_json::json;
 use super::quantity::Quantity;
 use crate::model::expression::Expression;
 use crate::model::read::{Any, Field};
-use crate::model::tables::by_kind;
+use crate::model::references::Reference;
+use crate::model::tables::{by_kind, or_form};
 use crate::nurbs::interpolate::Parametrization;
 
 pub(crate) use draw::trajectory;
@@ -62,6 +63,13 @@ pub enum TrajectorySpec {
         /// Length along the mean direction; right across the domain if absent.
         length: Option<Quantity>,
     },
+    /// That of another feature, or beside it.
+    Like {
+        /// The other feature.
+        other: Reference,
+        /// How far to the right of it, looking along it.
+        offset: Quantity,
+    },
     /// Two formulas in `t`.
     Parametric {
         /// x of t.
@@ -73,7 +81,17 @@ pub enum TrajectorySpec {
     },
 }
 
-/// What every trajectory has.
+impl TrajectorySpec {
+    /// What it refers to.
+    pub(crate) fn refers(&self) -> Vec<&Reference> {
+        match self {
+            Self::Like { other, .. } => vec![other],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// What every trajectory has that is like no other.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TrajectoryFile {
@@ -142,6 +160,17 @@ pub(crate) struct SineGeneratedFile {
     pub(crate) length: Option<Field<Any>>,
 }
 
+/// The trajectory of another feature, or one beside it; in place of `kind`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LikeFile {
+    /// Name of another feature whose trajectory it has: its id, or that of one of its instances, as "valley-2".
+    pub(crate) like: Field<String>,
+    /// How far to the right of it, looking along it, in metres; 0 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) offset: Option<Field<Any>>,
+}
+
 /// Two formulas in `t`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -162,7 +191,11 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    let mut schema = by_kind(&common, &kinds);
+    let mut schema = or_form(
+        by_kind(&common, &kinds),
+        "like",
+        &LikeFile::json_schema(generator),
+    );
     let examples = json!([
         { "kind": "line", "azimuth_deg": 45 },
         { "kind": "line", "from": [0, 300], "to": [1000, 600] },

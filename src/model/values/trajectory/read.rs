@@ -1,12 +1,14 @@
 //! Trajectories, by their kind.
 
 use super::{
-    LineFile, ParametricFile, PointsFile, SineGeneratedFile, TrajectoryFile, TrajectorySpec,
+    LikeFile, LineFile, ParametricFile, PointsFile, SineGeneratedFile, TrajectoryFile,
+    TrajectorySpec,
 };
 use crate::model::checker::{Checker, Reported};
 use crate::model::domain::Domain;
-use crate::model::draft::Draft;
+use crate::model::draft::{Draft, Family};
 use crate::model::expression::Expression;
+use crate::model::nature::Gives;
 use crate::model::read::{Any, Field};
 use crate::model::suggest;
 use crate::model::tree::{NodeId, Value, quoted};
@@ -29,7 +31,10 @@ struct Table<'d> {
 }
 
 impl Checker<'_> {
-    pub(crate) fn trajectory(&self, node: NodeId, draft: &Draft) -> Option<TrajectorySpec> {
+    /// The trajectory of one of the features.
+    pub(crate) fn trajectory(&self, node: NodeId, family: &Family<'_>) -> Option<TrajectorySpec> {
+        let draft = &family.drafts[family.own];
+        let table = Table { node, draft };
         let name = format!("the trajectory of {}", draft.name);
         if let Some(remedy) = self.table_to_paste(node) {
             let found = self.reader.tree.describe(node);
@@ -37,14 +42,27 @@ impl Checker<'_> {
             self.reader.wrong(node, message, remedy);
             return None;
         }
+        if self
+            .reader
+            .tree
+            .entries(node)
+            .iter()
+            .any(|entry| entry.key == "like")
+        {
+            let spec = self.like(&table, &name, family);
+            self.reader.close(node, &name);
+            return spec;
+        }
         let common: TrajectoryFile = self.reader.table(node)?;
-        let table = Table { node, draft };
         let (at, kind) = match common.kind {
             Field::Missing => {
                 self.reader.wrong(
                     node,
                     format!("{name} has no `kind`"),
-                    format!("add one of {}", suggest::list(&KINDS)),
+                    format!(
+                        "add one of {}; or write like = \"another-channel\"",
+                        suggest::list(&KINDS)
+                    ),
                 );
                 return None;
             }
@@ -88,6 +106,19 @@ impl Checker<'_> {
             _ => return None,
         };
         Some(format!("write a table, for example: trajectory = {table}"))
+    }
+
+    fn like(&self, table: &Table<'_>, name: &str, family: &Family<'_>) -> Option<TrajectorySpec> {
+        let file: LikeFile = self.reader.table(table.node)?;
+        let other = file
+            .like
+            .good()
+            .and_then(|(node, text)| self.refer(node, &text, name, Gives::Way, family));
+        let offset = self.maybe(file.offset, table, "offset", ANY);
+        Some(TrajectorySpec::Like {
+            other: other?,
+            offset: offset.ok()?.unwrap_or(Quantity::Constant(0.0)),
+        })
     }
 
     /// Says so if a trajectory is written in world coordinates.
