@@ -109,7 +109,7 @@ fn found(model: &Model, name: &str) -> Result<String, SelectionError> {
 
 /// The whole names of a feature's volumes that end in this one; so many at most as anybody reads.
 fn completed(model: &Model, feature: &Feature, name: &str) -> Vec<String> {
-    let Some(parent) = feature.parent.map(|parent| &model.features[parent]) else {
+    let Some(parent) = host(model, feature) else {
         return Vec::new();
     };
     let starts = std::iter::once(0).chain(name.match_indices('/').map(|(at, _)| at + 1));
@@ -130,7 +130,7 @@ fn completed(model: &Model, feature: &Feature, name: &str) -> Vec<String> {
 
 /// The whole names of a feature's instances; so many at most as anybody reads.
 fn volumes(model: &Model, feature: &Feature) -> Vec<String> {
-    let paths = match feature.parent.map(|parent| &model.features[parent]) {
+    let paths = match host(model, feature) {
         None => vec![String::new()],
         Some(parent) => volumes(model, parent),
     };

@@ -33,11 +33,9 @@ impl Report {
         let labels = labels::labels(model, &realisation.volumes);
         // What is a piece of an older volume is told of with that.
         let is_whole = |volume: &usize| realisation.rules.whole(*volume) == *volume;
-        let volumes: Vec<VolumeEntry> = labels
-            .into_iter()
-            .enumerate()
-            .filter(|(volume, _)| is_whole(volume))
-            .map(|(volume, label)| volume_entry(parts, volume, label))
+        let volumes: Vec<VolumeEntry> = (0..realisation.volumes.len())
+            .filter(is_whole)
+            .map(|volume| volume_entry(parts, volume, labels[volume].clone()))
             .collect();
         let facies: Vec<FaciesEntry> = model
             .facies

@@ -78,8 +78,8 @@ pub(super) struct Layers<'a> {
     pub(super) extent: &'a Extent,
     /// By what the instance's children are placed.
     pub(super) own: &'a Frame,
-    /// By what it is placed itself, if it has a parent.
-    pub(super) parent: Option<&'a Frame>,
+    /// By what it is placed itself, if it has a parent or goes along something.
+    pub(super) host: Option<&'a Frame>,
     /// What bounds its unit above, if it asked for that.
     pub(super) top: Option<&'a Horizon>,
 }
@@ -107,7 +107,7 @@ impl Layers<'_> {
 
     /// The base of the unit that it divides.
     fn base(&self) -> Option<&Horizon> {
-        match self.parent {
+        match self.host {
             Some(Frame::Unit(base)) => Some(base),
             _ => None,
         }
@@ -115,7 +115,7 @@ impl Layers<'_> {
 
     /// How the layers lie of what does not tell itself: along its own way, that of its channel, or on the base of its unit.
     fn around(&self) -> Result<Fabric, String> {
-        let frames = [Some(self.own), self.parent];
+        let frames = [Some(self.own), self.host];
         for frame in frames.into_iter().flatten() {
             match frame {
                 Frame::Along(reach) => {

@@ -52,6 +52,15 @@ impl Volumes {
         let rock = background_rock
             .properties(model)
             .map_err(impossible("background"))?;
+        let asks = model
+            .features
+            .iter()
+            .any(|one| needs_fabric(model, &one.properties));
+        let frames = if asks {
+            built.iter().map(|one| one.made.frame.clone()).collect()
+        } else {
+            Vec::new()
+        };
         let mut adding = Adding {
             model,
             selection,
@@ -64,8 +73,8 @@ impl Volumes {
             },
             extent,
             firsts: Vec::with_capacity(built.len()),
+            frames,
             ends: Vec::with_capacity(built.len()),
-            frames: Vec::with_capacity(built.len()),
             units: BTreeMap::new(),
             open: BACKGROUND,
         };
@@ -89,12 +98,12 @@ struct Adding<'a> {
     above: &'a BTreeMap<usize, usize>,
     volumes: Volumes,
     extent: &'a Extent,
+    /// By instance, by what its children are placed; empty if nothing asks how layers lie.
+    frames: Vec<Frame>,
     /// By instance so far, its first volume; none of what takes no part.
     firsts: Vec<Option<usize>>,
     /// By instance so far, what comes after its volumes.
     ends: Vec<usize>,
-    /// By instance so far, by what its children are placed.
-    frames: Vec<Frame>,
     /// The volumes of those bases so far that take part, by feature.
     units: BTreeMap<usize, usize>,
     /// The unit above the last base so far.
@@ -125,7 +134,6 @@ impl Adding<'_> {
             nature::Volumes::Many { .. } => 0,
         };
         let fabrics = self.fabrics(due, feature, &parts, &frame)?;
-        self.frames.push(frame);
         let first = self.volumes.rules.len();
         self.firsts.push(Some(first));
         // By part, its volume, or of what takes no part what it would take from.
@@ -189,18 +197,6 @@ impl Adding<'_> {
         Ok(())
     }
 
-    /// The volumes, of which companions now know what they go along: it comes after them.
-    fn along(mut self, due: &[Due]) -> Volumes {
-        for (at, due) in due.iter().enumerate() {
-            if let (Some(first), Some(along)) = (self.firsts[at], due.along) {
-                for rules in &mut self.volumes.rules[first..self.ends[at]] {
-                    rules.along = self.firsts[along];
-                }
-            }
-        }
-        self.volumes
-    }
-
     /// How the layers of each part lie; nothing if no property asks for that.
     fn fabrics(
         &self,
@@ -215,10 +211,23 @@ impl Adding<'_> {
         let layers = Layers {
             extent: self.extent,
             own: frame,
-            parent: due.parent.map(|parent| &self.frames[parent]),
+            // A companion lies along what it goes along.
+            host: due.along.or(due.parent).map(|host| &self.frames[host]),
             top: due.top.as_ref(),
         };
         layers.of(parts).map_err(impossible(&due.name))
+    }
+
+    /// The volumes, of which companions now know what they go along: it comes after them.
+    fn along(mut self, due: &[Due]) -> Volumes {
+        for (at, due) in due.iter().enumerate() {
+            if let (Some(first), Some(along)) = (self.firsts[at], due.along) {
+                for rules in &mut self.volumes.rules[first..self.ends[at]] {
+                    rules.along = self.firsts[along];
+                }
+            }
+        }
+        self.volumes
     }
 
     /// Whether a part takes part: neither it nor what it is a part of is left out.

@@ -179,9 +179,11 @@ fn tell_normal_from_normal(table: &mut Map<String, Value>) {
     if let Some(Value::Object(together)) = table.get_mut("dependentRequired") {
         together.remove("normal");
     }
-    let only = |kinds: Value| json!({ "properties": { "normal": { "type": kinds } } });
+    let only = |words: &str, kinds: Value| json!({ "properties": { "normal": { "description": words, "type": kinds } } });
     let either = json!({
-        "if": is_along, "then": only(json!(["number", "object"])), "else": only(json!("array")),
+        "if": is_along,
+        "then": only("Across the layers.", json!(["number", "object"])),
+        "else": only("[mean, standard deviation]", json!("array")),
     });
     table.insert("allOf".to_owned(), json!([either]));
 }

@@ -191,7 +191,11 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         ("sine-generated", SineGeneratedFile::json_schema(generator)),
         ("parametric", ParametricFile::json_schema(generator)),
     ];
-    let mut schema = by_kind(&common, &kinds);
+    let mut schema = or_form(
+        by_kind(&common, &kinds),
+        "like",
+        &LikeFile::json_schema(generator),
+    );
     let examples = json!([
         { "kind": "line", "azimuth_deg": 45 },
         { "kind": "line", "from": [0, 300], "to": [1000, 600] },
@@ -200,7 +204,7 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         { "kind": "parametric", "x": "1000 * t", "y": "500 + 80 * sin(2 * pi * t)" },
     ]);
     schema.insert("examples".to_owned(), examples);
-    or_form(schema, "like", &LikeFile::json_schema(generator))
+    schema
 }
 
 fn parametrization(_: &mut SchemaGenerator) -> Schema {

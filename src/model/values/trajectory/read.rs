@@ -90,19 +90,6 @@ impl Checker<'_> {
         spec
     }
 
-    fn like(&self, table: &Table<'_>, name: &str, family: &Family<'_>) -> Option<TrajectorySpec> {
-        let file: LikeFile = self.reader.table(table.node)?;
-        let other = file
-            .like
-            .good()
-            .and_then(|(node, text)| self.refer(node, &text, name, Gives::Way, family));
-        let offset = self.maybe(file.offset, table, "offset", ANY);
-        Some(TrajectorySpec::Like {
-            other: other?,
-            offset: offset.ok()?.unwrap_or(Quantity::Constant(0.0)),
-        })
-    }
-
     /// What to write in the place of a word, or of a list of points, that is to be a trajectory.
     fn table_to_paste(&self, node: NodeId) -> Option<String> {
         let list = "{ kind = \"points\", points = [[0, 400], [500, 600], [1000, 500]] }";
@@ -119,6 +106,19 @@ impl Checker<'_> {
             _ => return None,
         };
         Some(format!("write a table, for example: trajectory = {table}"))
+    }
+
+    fn like(&self, table: &Table<'_>, name: &str, family: &Family<'_>) -> Option<TrajectorySpec> {
+        let file: LikeFile = self.reader.table(table.node)?;
+        let other = file
+            .like
+            .good()
+            .and_then(|(node, text)| self.refer(node, &text, name, Gives::Way, family));
+        let offset = self.maybe(file.offset, table, "offset", ANY);
+        Some(TrajectorySpec::Like {
+            other: other?,
+            offset: offset.ok()?.unwrap_or(Quantity::Constant(0.0)),
+        })
     }
 
     /// Says so if a trajectory is written in world coordinates.
