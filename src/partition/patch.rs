@@ -20,6 +20,9 @@ pub(super) const ORDER: usize = 8;
 /// Weights that differ by this fraction are the same.
 const SAME: f64 = 1e-13;
 
+/// Along a direction in which its legs are shorter than this, as a fraction of the others, a patch is not halved.
+const THIN: f64 = 1e-3;
+
 /// One of the two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Along {
@@ -149,25 +152,53 @@ impl Patch {
         }
     }
 
-    /// The direction along which its tangents turn more, by its borders: beside a pole, around that.
+    /// The direction along which its tangents turn more: beside a pole, around that. Not one along which it is next to nothing long.
     pub(super) fn rounder(&self) -> Along {
-        let (last_u, last_v) = (self.rows - 1, self.columns - 1);
-        let step = |from: [usize; 2], to: [usize; 2]| {
-            (self.control(to[0], to[1]) - self.control(from[0], from[1])).normalize_or_zero()
+        let leg = |i: usize, j: usize, along: Along| {
+            let to = match along {
+                Along::U => self.control(i + 1, j),
+                Along::V => self.control(i, j + 1),
+            };
+            to - self.control(i, j)
         };
-        // The first leg along one parameter and the last, seen from both borders.
-        let along_u = |j: usize| [step([0, j], [1, j]), step([last_u - 1, j], [last_u, j])];
-        let along_v = |i: usize| [step([i, 0], [i, 1]), step([i, last_v - 1], [i, last_v])];
-        let ([a, b], [c, d]) = (along_u(0), along_u(last_v));
-        let ([e, f], [g, h]) = (along_v(0), along_v(last_u));
         // Vanishing legs say nothing.
-        let turn = |one: DVec3, other: DVec3| {
-            let is_leg = one != DVec3::ZERO && other != DVec3::ZERO;
-            if is_leg { 1.0 - one.dot(other) } else { 0.0 }
+        let turn = |one: DVec3, other: DVec3| match (one.try_normalize(), other.try_normalize()) {
+            (Some(one), Some(other)) => 1.0 - one.dot(other),
+            _ => 0.0,
         };
-        let by_u = turn(a, b) + turn(c, d) + turn(e, g) + turn(f, h);
-        let by_v = turn(e, f) + turn(g, h) + turn(a, c) + turn(b, d);
-        if by_u > by_v { Along::U } else { Along::V }
+        let (mut turns, mut lengths) = ([0.0; 2], [0.0_f64; 2]);
+        for i in 0..self.rows {
+            for j in 0..self.columns {
+                let has = [i + 1 < self.rows, j + 1 < self.columns];
+                // From this leg to the next one along u, and along v; legs of both directions.
+                if has[0] {
+                    lengths[0] = lengths[0].max(leg(i, j, Along::U).length());
+                    if i + 2 < self.rows {
+                        turns[0] += turn(leg(i, j, Along::U), leg(i + 1, j, Along::U));
+                    }
+                    if has[1] {
+                        turns[1] += turn(leg(i, j, Along::U), leg(i, j + 1, Along::U));
+                    }
+                }
+                if has[1] {
+                    lengths[1] = lengths[1].max(leg(i, j, Along::V).length());
+                    if j + 2 < self.columns {
+                        turns[1] += turn(leg(i, j, Along::V), leg(i, j + 1, Along::V));
+                    }
+                    if has[0] {
+                        turns[0] += turn(leg(i, j, Along::V), leg(i + 1, j, Along::V));
+                    }
+                }
+            }
+        }
+        let by_u = turns[0] > turns[1];
+        let [own, other] = if by_u {
+            lengths
+        } else {
+            [lengths[1], lengths[0]]
+        };
+        let is_thin = own < THIN * other;
+        if by_u == is_thin { Along::V } else { Along::U }
     }
 
     /// Hands on those of its two halves (de Casteljau) whose boxes are wanted.
@@ -304,6 +335,17 @@ fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_section_that_winds_is_halved_across_and_not_along_its_rulings() {
+        // Its first leg and its last one are parallel.
+        let winding = [[0.0, 0.0], [3.0, 1.0], [-2.0, 2.0], [1.0, 3.0]];
+        let net: Vec<DVec3> = (0..8)
+            .map(|k| DVec3::new(winding[k / 2][0], (k % 2) as f64, winding[k / 2][1]))
+            .collect();
+        let patch = Patch::new(4, &net, &[1.0; 8], [0.0, 1.0], [0.0, 1.0]);
+        assert_eq!(patch.rounder(), Along::U);
+    }
 
     #[test]
     fn a_part_is_the_patch_over_its_rectangle() {
