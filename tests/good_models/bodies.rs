@@ -1,8 +1,8 @@
 //! Channels and ellipsoids: every key arrives, and what is left out has its default.
 
 use clinothem::model::{
-    EllipsoidSpec, Expression, FeatureKind, Model, Pick, Profile, Property, Quantity, Rgb,
-    SectionOrigin, Selector, TrajectorySpec,
+    BentProfile, EllipsoidSpec, Expression, FeatureKind, Model, Pick, Profile, Property, Quantity,
+    Rgb, SectionOrigin, Selector, TrajectorySpec,
 };
 use clinothem::nurbs::interpolate::Parametrization;
 
@@ -123,7 +123,7 @@ fn every_key_arrives_where_it_belongs() {
         spec.depth,
         Profile::Expression(Expression::new("5 + sin(2 * pi * s)", "s").unwrap())
     );
-    assert_eq!(spec.asymmetry, Profile::from(-0.2));
+    assert_eq!(spec.asymmetry, BentProfile::from(-0.2));
     assert_eq!(spec.right_angle_deg, Some(Profile::from(100.0)));
     assert_eq!(spec.origin, SectionOrigin::TopCentre);
     assert_eq!(
@@ -202,7 +202,7 @@ fn what_is_left_out_has_its_default() {
         (&Selector::Everything, &Selector::Everything)
     );
     let spec = channel(&model, 1);
-    assert_eq!(spec.asymmetry, Profile::from(0.0));
+    assert_eq!(spec.asymmetry, BentProfile::from(0.0));
     assert_eq!((&spec.top, spec.origin), (&None, SectionOrigin::Thalweg));
     assert_eq!(
         (spec.angle_limit_deg, spec.tolerance_fraction),

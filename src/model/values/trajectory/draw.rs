@@ -79,10 +79,10 @@ pub(crate) fn trajectory(
             Trajectory::parametric(&at, *range)
         }
     };
-    made.map_err(|error| (reason(&error), error.to_string()))
+    made.map_err(|error| (rejection(&error), error.to_string()))
 }
 
-pub(crate) fn reason(error: &TrajectoryError) -> &'static str {
+pub(crate) fn rejection(error: &TrajectoryError) -> &'static str {
     match error {
         TrajectoryError::NoMeander { .. } => "amplitude too large for the wavelength",
         TrajectoryError::TooManyMeanders { .. } => "wavelength too short for the extent",

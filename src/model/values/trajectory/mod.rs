@@ -12,7 +12,7 @@ use crate::model::read::{Any, Field};
 use crate::model::tables::by_kind;
 use crate::nurbs::interpolate::Parametrization;
 
-pub(crate) use draw::{extent, reason, trajectory};
+pub(crate) use draw::{extent, rejection, trajectory};
 
 /// The way that a feature takes, in plan.
 #[derive(Clone, Debug, PartialEq)]
