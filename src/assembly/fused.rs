@@ -12,7 +12,8 @@ use super::options::{Engine, Options};
 use super::shapes::{self, Cut};
 use super::sides::{self, SideError};
 use super::worker::{self, WorkerError};
-use crate::features::body::Body;
+use crate::features::body::{Body, Trough};
+use crate::features::shell::Shell;
 use crate::model::plan::{AssemblyPlan, PlannedBody, PlannedShell};
 
 /// Why a body is no shell for the kernel.
@@ -22,6 +23,8 @@ enum ShellError {
     Side(#[from] SideError),
     #[error(transparent)]
     Joined(#[from] JoinedError),
+    #[error("a channel with corners cannot be closed: {0}")]
+    Corners(String),
 }
 
 /// One rung of the ladder.
@@ -211,6 +214,13 @@ fn topology(
         (Body::Side(side), _) => sides::shell(side, block, place)?,
         (Body::Shell(shell), _) => joined::shell(shell)?,
         (Body::Ellipsoid(ellipsoid), _) => closed::shell(ellipsoid.skin(), cut.segments),
+        (Body::Trough(trough), flush) if trough.has_creases() => {
+            let whole = match flush {
+                Some(flush) if remedy.tops == Tops::Lids => &flush.raised,
+                _ => trough,
+            };
+            joined::shell(&creased(whole, block, cut)?)?
+        }
         (Body::Trough(_), Some(flush)) if remedy.tops == Tops::Lids => {
             shapes::trough(&flush.raised, block, cut, None)
         }
@@ -219,6 +229,15 @@ fn topology(
             shapes::trough(trough, block, cut, level)
         }
     })
+}
+
+/// The part of a trough with creases that matters, as a shell of smooth sheets: a face with a crease is none that the kernel intersects.
+fn creased(trough: &Trough, block: [DVec3; 2], cut: Cut) -> Result<Shell, ShellError> {
+    let [first, last] = shapes::ends(trough, block, cut.overshoot);
+    let wrong = |error: &dyn std::error::Error| ShellError::Corners(error.to_string());
+    let part = trough.between(first, last).map_err(|error| wrong(&error))?;
+    let sheets = part.sheets().map_err(|error| wrong(&error))?;
+    Shell::new(sheets).map_err(|error| wrong(&error))
 }
 
 /// The domain's box as volume 0 and every body, closed ones as a solid, as the first attempt gives them to the kernel,

@@ -201,6 +201,11 @@ impl Trough {
         (high - low <= tolerance).then(|| f64::midpoint(low, high))
     }
 
+    /// Whether its base has creases along it, where its section has corners.
+    pub fn has_creases(&self) -> bool {
+        self.base.smooth_parts_u().len() > 1
+    }
+
     /// All sheets of the closed shell.
     ///
     /// A base with creases is as many sheets, and each end a fan of them: sheets are smooth.

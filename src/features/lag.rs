@@ -73,6 +73,11 @@ pub enum LagError {
         /// Of the base's relief.
         sag: f64,
     },
+    /// A level sheet over banks that reach out and back.
+    #[error(
+        "{0:.0} m along the channel its banks reach out and back below the rims, where a level top would fold: give it a sag above 0"
+    )]
+    Folded(f64),
     /// The channel has no such part.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
@@ -95,6 +100,11 @@ pub fn section(base: &[DVec2], depth: f64, thickness: f64, sag: f64) -> Vec<DVec
     let rest = 1.0 - thickness;
     let lift = |p: &DVec2| DVec2::new(p.x, -rest * (1.0 - sag) * depth + rest * sag * p.y);
     base.iter().map(lift).collect()
+}
+
+/// Whether control points do not go from left to right: of a level line they would run back along it.
+pub(super) fn turns_back(points: &[DVec2]) -> bool {
+    points.windows(2).any(|pair| pair[1].x < pair[0].x)
 }
 
 impl LagDesign {
@@ -156,6 +166,9 @@ impl LagDesign {
         };
         top[0].x = widest[0] - out * order - overhang(base[0].x, widest[0]);
         top[last].x = widest[1] + out * order + overhang(base[last].x, widest[1]);
+        if sag == 0.0 && turns_back(&top) {
+            return Err(LagError::Folded(station.place.s));
+        }
         let floor = -(FLOOR + STAGGER * order) * station.depth;
         let bottom = [top[0], top[last]].map(|p| DVec2::new(p.x, floor));
         Ok([top, bottom.to_vec()])

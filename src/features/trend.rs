@@ -64,6 +64,11 @@ pub enum LevelsError {
         /// The sag.
         sag: f64,
     },
+    /// Level surfaces over banks that reach out and back.
+    #[error(
+        "the channel's banks reach out and back below its rims, where level surfaces would fold: give them a sag above 0"
+    )]
+    Folded,
     /// The channel has no section.
     #[error(transparent)]
     Section(#[from] SectionError),
@@ -112,6 +117,11 @@ impl LevelsDesign {
         let beyond =
             |fraction: f64| overshoot * reach.station(fraction).width / reach.trajectory().length();
         let is_last = layer > self.surfaces;
+        // Level ones run along one line across.
+        let start = self.sheets(reach, &reach.station(0.0), layer)?;
+        if !is_last && self.sag == 0.0 && lag::turns_back(&start[0]) {
+            return Err(LevelsError::Folded);
+        }
         let tube = Tube {
             sheets,
             roles: [if is_last { Role::Hidden } else { Role::Top }, Role::Hidden],
@@ -128,17 +138,19 @@ impl LevelsDesign {
     ) -> Result<[Vec<DVec2>; 2], SectionError> {
         let Station { width, depth, .. } = *station;
         let base = reach.base(station.fraction)?;
-        let mut top = if layer > self.surfaces {
-            base.iter()
-                .map(|p| DVec2::new(p.x, ABOVE * depth))
+        let last = base.len() - 1;
+        let widest = base.iter().fold([0.0_f64; 2], |[left, right], p| {
+            [left.min(p.x), right.max(p.x)]
+        });
+        let mut top: Vec<DVec2> = if layer > self.surfaces {
+            // Above all of the channel, evenly from side to side.
+            let x = |i: usize| widest[0] + (widest[1] - widest[0]) * i as f64 / last as f64;
+            (0..=last)
+                .map(|i| DVec2::new(x(i), ABOVE * depth))
                 .collect()
         } else {
             lag::section(&base, depth, self.thickness(layer), self.sag)
         };
-        let last = top.len() - 1;
-        let widest = base.iter().fold([0.0_f64; 2], |[left, right], p| {
-            [left.min(p.x), right.max(p.x)]
-        });
         let out = (OUT + STAGGER * layer as f64) * width;
         top[0].x = widest[0] - out;
         top[last].x = widest[1] + out;

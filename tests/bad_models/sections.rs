@@ -9,7 +9,7 @@ const SECTION: &str = include_str!("section.toml");
 /// The same for sections.
 #[rustfmt::skip]
 const SECTION_EDITS: &[Edit] = &[
-    ("points = [[-0.5, 0], [-0.25, -1], [0, -1], [0.25, -1], [0.5, 0]]", "▸", &["no `points`"]),
+    ("points = [[-0.5, 0], [-0.25, -1], [0, -1], [0.25, -1], [0.5, 0]]", "", &["no `points`"]),
     ("points = [[-0.5, 0], [-0.25, -1], [0, -1], [0.25, -1], [0.5, 0]]", "points = ▸5", &["expected a list of points for the section of feature \"channel\""]),
     ("[-0.25, -1]", "▸[-0.25]", &["expected a point [x, y] of the section of feature \"channel\""]),
     ("[-0.25, -1]", "[-0.25, ▸\"deep\"]", &["number"]),
@@ -17,8 +17,8 @@ const SECTION_EDITS: &[Edit] = &[
     ("[-0.5, 0]", "▸[-0.4, 0]", &["point 1, a rim, is [-0.4, 0]", "the first point must be [-0.5, 0]"]),
     ("[0.5, 0]]", "▸[0.5, 0.1]]", &["point 5, a rim, is [0.5, 0.1]"]),
     ("[0, -1], [0.25, -1]", "[0, -1], ▸[0, -1]", &["points 3 and 4 are the same"]),
-    ("points = [[-0.5, 0], [-0.25, -1], [0, -1], [0.25, -1], [0.5, 0]]", "points = ▸[[-0.5, 0], [-0.25, -1], [0, 0.2], [0.25, -1], [0.5, 0]]\nwidth_of = 1", &["unknown key `width_of`"]),
-    ("[0, -1], [0.25, -1]", "[0.4, -0.2], [-0.4, -0.2]", &["meets itself near point", "must not cross or touch itself"]),
+    ("points = [[-0.5, 0], [-0.25, -1], [0, -1], [0.25, -1], [0.5, 0]]", "points = [[-0.5, 0], [-0.25, -1], [0, -1], [0.25, -1], [0.5, 0]]\n▸width_of = 1", &["unknown key `width_of`"]),
+    ("[0, -1], [0.25, -1]", "[0.4, -0.2], [-0.6, -0.2]", &["meets itself near point", "must not cross or touch itself"]),
     ("[0, -1], [0.25, -1]", "[0, 1], [0.25, -1]", &["meets its own top near point"]),
     ("[-0.25, -1], [0, -1], [0.25, -1]", "[-0.25, 1], [0, 1], [0.25, 1]", &["rises above its rims near point"]),
     ("degree = 1", "degree = ▸0", &["degree is 0", "1 (straight pieces) to 7"]),

@@ -154,7 +154,7 @@ fn every_key_arrives_where_it_belongs() {
         spec.depth,
         Profile::Expression(Expression::new("5 + sin(2 * pi * s)", "s").unwrap())
     );
-    assert_eq!(spec.asymmetry, BentProfile::Profile(Profile::from(-0.2)));
+    assert_eq!(spec.asymmetry, BentProfile::from(-0.2));
     assert_eq!(spec.right_angle_deg, Some(Profile::from(100.0)));
     assert_eq!(spec.origin, SectionOrigin::TopCentre);
     assert_eq!(
@@ -233,7 +233,7 @@ fn what_is_left_out_has_its_default() {
         (&Selector::Everything, &Selector::Everything)
     );
     let spec = channel(&model, 1);
-    assert_eq!(spec.asymmetry, BentProfile::Profile(Profile::from(0.0)));
+    assert_eq!(spec.asymmetry, BentProfile::from(0.0));
     assert_eq!((&spec.top, spec.origin), (&None, SectionOrigin::Thalweg));
     assert_eq!(
         (spec.angle_limit_deg, spec.tolerance_fraction),

@@ -205,7 +205,7 @@ impl Kind for MeanderBeltSpec {
         for at in 0..self.steps {
             let (line, above) = migration
                 .position(at)
-                .map_err(|error| (trajectory::reason(&error), of(at, &error)))?;
+                .map_err(|error| (trajectory::rejection(&error), of(at, &error)))?;
             let line = Arc::new(line);
             let design = ChannelDesign {
                 width: Along::Constant(width),

@@ -101,6 +101,7 @@ impl Checker<'_> {
             Err(error) => {
                 let at = match &error {
                     OwnSectionError::Degree(_) => degree_node,
+                    OwnSectionError::Few { .. } if degree_node != node => degree_node,
                     OwnSectionError::Weights { .. } | OwnSectionError::Weight { .. } => {
                         weights_node.unwrap_or(node)
                     }

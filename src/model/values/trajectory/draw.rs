@@ -87,10 +87,10 @@ pub(crate) fn trajectory(
             Trajectory::parametric(&at, *range)
         }
     };
-    made.map_err(|error| (reason(&error), error.to_string()))
+    made.map_err(|error| (rejection(&error), error.to_string()))
 }
 
-pub(crate) fn reason(error: &TrajectoryError) -> &'static str {
+pub(crate) fn rejection(error: &TrajectoryError) -> &'static str {
     match error {
         TrajectoryError::Folds { .. } => "the offset folds in a bend",
         TrajectoryError::NoMeander { .. } => "amplitude too large for the wavelength",

@@ -14,7 +14,7 @@ use crate::model::references::Reference;
 use crate::model::tables::{by_kind, or_form};
 use crate::nurbs::interpolate::Parametrization;
 
-pub(crate) use draw::{extent, reason, trajectory};
+pub(crate) use draw::{extent, rejection, trajectory};
 
 /// The way that a feature takes, in plan.
 #[derive(Clone, Debug, PartialEq)]
