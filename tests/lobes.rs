@@ -90,7 +90,8 @@ fn by_its_apex_or_its_middle_a_lobe_is_the_same_and_a_wall_along_its_axis_halves
     let one = built(&by_apex, &[east], Engine::Partition);
     assert!((one.size("lobe") / whole - 1.0).abs() < 2e-6);
     let half = built(&by_apex, &[east, "domain.y=[200, 400]"], Engine::Partition);
-    assert!((half.size("lobe") / whole - 0.5).abs() < 2e-6);
+    let half = half.size("lobe") / whole;
+    assert!((half - 0.5).abs() < 2e-6, "{half}");
     // Its apex is on the wall, or beyond it.
     for x in [0, -40] {
         let cut = built(
@@ -159,8 +160,6 @@ base = {base}
     );
     for (x, y, base, azimuth) in [
         (300, 220, -10.0, 120),
-        (250, 200, -11.0, 60),
-        (260, 190, -9.0, 200),
         (180, 150, -14.0, 10),
         (250, 200, -7.5, 300),
     ] {
@@ -328,17 +327,18 @@ fn without_compensation_lobes_cover_what_a_boolean_model_does() {
 
 #[test]
 fn eroding_lobes_take_from_older_ones() {
-    let eroding = ["feature.lobes.erosion=0.3", "feature.lobes.count=4"];
-    let plain = ["feature.lobes.count=4"];
+    let eroding = ["feature.lobes.erosion=0.3", "feature.lobes.count=5"];
+    let plain = ["feature.lobes.count=5"];
     let [one, other] = [&eroding[..], &plain[..]].map(|all| built(STACK, all, Engine::Partition));
-    let sum = |built: &Built| -> f64 {
-        (1..=4)
-            .map(|number| built.size(&format!("floor/lobes-{number}")))
-            .sum()
+    let older = |built: &Built| -> f64 {
+        let sizes = (1..=4).map(|number| built.size(&format!("floor/lobes-{number}")));
+        sizes.sum()
     };
-    // The youngest has all of itself above the floor; older ones lose by it.
-    assert!(one.size("floor/lobes-4") > other.size("floor/lobes-4"));
-    assert!(sum(&one) > 0.5 * sum(&other));
+    // The youngest loses nothing; older ones lose by it and by each other.
+    let [youngest, whole] = [&one, &other].map(|built| built.size("floor/lobes-5"));
+    assert!(youngest > whole * (1.0 - 1e-6), "{youngest} {whole}");
+    let [left, all] = [older(&one), older(&other)];
+    assert!(left < 0.99 * all && left > 0.5 * all, "{left} {all}");
 }
 
 #[test]

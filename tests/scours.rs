@@ -128,7 +128,7 @@ fn the_wall_along_its_axis_halves_it_and_top_and_base_of_the_domain_cut_it() {
         Engine::Partition,
     );
     assert!((half.size("scour") - 0.5 * whole).abs() < 1e-6 * whole);
-    for (top, cuts) in [(1.2, "top"), (-10.5, "base")] {
+    for (top, cuts) in [(1.2, "top"), (-11.5, "base")] {
         let cut = built(
             &[
                 "feature.scour.azimuth_deg=90",

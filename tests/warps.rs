@@ -82,7 +82,7 @@ const SCOUR: f64 = 0.405_919 * 20.0 * 3.0 * 200.0 * (1.0 - 0.55 / 3.0);
 fn to_a_plane_a_body_conforms_exactly() {
     let one = built(WARPED, &["feature.scour.conform.to=\"plane\""]);
     assert!(deviation(&one, "scour") < 1e-12);
-    // The rims are 4 m below the plane, and a fiftieth of the depth higher.
+    // The rims are 4 m below the plane, and a two-hundredth of the depth higher.
     let Body::Shell(shell) = body(&one, "scour") else {
         panic!("it is a shell")
     };
@@ -93,7 +93,7 @@ fn to_a_plane_a_body_conforms_exactly() {
     };
     let tops = shell.sheets().iter().filter(|sheet| sheet.0 == Role::Top);
     for p in tops.flat_map(|sheet| sheet.1.net()) {
-        assert!((p.z - (plane(*p) - 4.0 + 0.06)).abs() < 1e-11, "{p}");
+        assert!((p.z - (plane(*p) - 4.0 + 0.015)).abs() < 1e-11, "{p}");
     }
     assert!((one.size("scour") / SCOUR - 1.0).abs() < 2e-4);
 }
@@ -167,12 +167,20 @@ removed_by = []
         let middle = |(low, high): (DVec3, DVec3)| 0.5 * (plan(low) + plan(high));
         assert!((middle(a) - middle(b)).length() < 1.0, "{name}");
         let off = (one.size(&name) - level.size(&name)).abs();
-        assert!(off <= 2.0 * deviation(&one, "nodule") * PI * 20.0 + 1e-6);
+        // Where the channel ends them it may be off, too.
+        let most = 2.0 * (deviation(&one, "nodule") + deviation(&one, "channel")) * PI * 20.0;
+        assert!(off <= most + 1e-6, "{name}: {off} {most}");
     }
 }
 
 /// Clinoforms with facies belts, or without.
 fn on_clinoforms(belts: &str) -> String {
+    // Without belts, what is below the first one is the unit's.
+    let oldest = if belts.is_empty() {
+        ""
+    } else {
+        "\"clino-0\", "
+    };
     format!(
         r#"
 name = "On clinoforms"
@@ -207,7 +215,7 @@ id = "scour"
 kind = "scour"
 facies = "sand"
 conform = {{ to = "clino-3" }}
-removes = ["ramp", "clino-0", "clino-1", "clino-2"]
+removes = ["ramp", {oldest}"clino-1", "clino-2"]
 length = 180
 width = [16, 48]
 depth = 2
@@ -230,19 +238,13 @@ center = [320, 60, 0]
 fn a_scour_runs_down_a_clinoform_and_a_concretion_lies_below_one() {
     let belts = r#"belts = [{ name = "proximal", facies = "mud", width = 180 }, { name = "distal", facies = "sand" }]"#;
     for belts in ["", belts] {
-        let text = on_clinoforms(belts);
-        let text = if belts.is_empty() {
-            text.replace("\"clino-0\", ", "")
-        } else {
-            text
-        };
-        let one = built(&text, &[]);
+        let one = built(&on_clinoforms(belts), &[]);
         let (scour, area) = (
             one.size("scour"),
             0.405_919 * 16.0 * 2.0 * 180.0 * (1.0 - 0.55 / 3.0),
         );
-        // Above the clinoform is what is a fiftieth of the depth or less below the rims.
-        assert!(scour < area && scour > 0.9 * area, "{scour} {area}");
+        // Above the clinoform is what is a two-hundredth of the depth or less below the rims.
+        assert!(scour < area && scour > 0.95 * area, "{scour} {area}");
         // Nothing of it is in the clinothem above, which lies on it.
         let above = if belts.is_empty() {
             "ramp/clino-3".to_owned()

@@ -158,8 +158,9 @@ impl Kind for LobesSpec {
         let mut pile = Pile::new(&datum);
         let mut stack: Option<Stack> = None;
         let mut parts = Vec::with_capacity(self.count);
-        let mut ends = vec![draws.drawn.len()];
+        let common = draws.drawn.clone();
         for number in 1..=self.count {
+            let before = draws.drawn.len();
             let shape = draws.lobe_shape(&self.shape, &format!("{number}."), None)?;
             let stack = match &mut stack {
                 Some(stack) => stack,
@@ -169,13 +170,7 @@ impl Kind for LobesSpec {
                         .map_err(|error| ("impossible region", error.to_string()))?,
                 ),
             };
-            let mut place = |key: &str| draws.uniform(0.0, 1.0, &format!("{number}.{key}"));
-            let chosen = [place("cell")?, place("x")?, place("y")?];
-            let center = stack.next_center(shape.thickness, compensation, chosen);
-            draws.drawn.truncate(draws.drawn.len() - chosen.len());
-            for (key, value) in [("center.x", center.x), ("center.y", center.y)] {
-                draws.drawn.push((format!("{number}.{key}"), value));
-            }
+            let center = next_center(stack, &shape, compensation, number, draws)?;
             let (lobe, shell) = laid(shape.with_center(center), &mut pile, erosion)
                 .map_err(|message| ("impossible lobe", format!("lobe {number}: {message}")))?;
             let body = if erosion > 0.0 {
@@ -187,9 +182,13 @@ impl Kind for LobesSpec {
                     .map_err(|error| ("impossible lobe", format!("lobe {number}: {error}")))?
             };
             stack.lay(&lobe, |at| pile.relief(at));
-            ends.push(draws.drawn.len());
+            let own = draws.drawn[before..].iter().map(|(key, value)| {
+                let (_, key) = key.split_once('.').unwrap_or(("", key));
+                (key.to_owned(), *value)
+            });
             parts.push(Part {
                 name: format!("-{number}"),
+                drawn: common.iter().cloned().chain(own).collect(),
                 from: if erosion > 0.0 {
                     TakesFrom::Anything
                 } else {
@@ -197,16 +196,6 @@ impl Kind for LobesSpec {
                 },
                 ..Part::of(Body::Shell(body))
             });
-        }
-        let drawn = draws.taken();
-        for (number, part) in parts.iter_mut().enumerate() {
-            let prefix = format!("{}.", number + 1);
-            let own = drawn[ends[number]..ends[number + 1]].iter();
-            let own = own.map(|(key, value)| {
-                let key = key.strip_prefix(&prefix).unwrap_or(key);
-                (key.to_owned(), *value)
-            });
-            part.drawn = drawn[..ends[0]].iter().cloned().chain(own).collect();
         }
         Ok(Made {
             parts,
@@ -226,6 +215,24 @@ impl Kind for LobesSpec {
     fn meshing(made: &[Outcome<'_>]) -> Option<String> {
         thin_rims(made.iter().map(|one| (one.body, one.name)), "stacked lobes")
     }
+}
+
+/// Where the middle of the next lobe is; that is what is remembered of the draws.
+fn next_center(
+    stack: &Stack,
+    shape: &LobeDesign,
+    compensation: f64,
+    number: usize,
+    draws: &mut Draws<'_>,
+) -> Result<DVec2, Reason> {
+    let mut place = |key: &str| draws.uniform(0.0, 1.0, &format!("{number}.{key}"));
+    let chosen = [place("cell")?, place("x")?, place("y")?];
+    let center = stack.next_center(shape.thickness, compensation, chosen);
+    draws.drawn.truncate(draws.drawn.len() - chosen.len());
+    for (key, value) in [("center.x", center.x), ("center.y", center.y)] {
+        draws.drawn.push((format!("{number}.{key}"), value));
+    }
+    Ok(center)
 }
 
 /// A lobe laid on what is there, which it is part of from then on; and its body. As it is sunk into that, it is made as much thicker
@@ -259,7 +266,7 @@ fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, 
 
 /// The lowest elevation of a surface over a plan (m), over a grid of places.
 fn lowest(surface: &Horizon, [low, high]: [DVec2; 2]) -> f64 {
-    let places = (0..=PLACES * PLACES).map(|k| {
+    let places = (0..PLACES * PLACES).map(|k| {
         let part = DVec2::new((k % PLACES) as f64, (k / PLACES) as f64) / (PLACES - 1) as f64;
         low + (high - low) * part
     });
