@@ -74,7 +74,7 @@ const SHOREFACE_EDITS: &[Edit] = &[
     ("\"onlapping\"", "▸\"conformable\"", &["there is no relation \"conformable\"", "\"erosive\" or \"onlapping\""]),
     ("\"onlapping\"", "▸true", &["expected text, found `true`"]),
     // Clinoforms.
-    ("kind = \"clinoforms\"", "kind = ▸\"clinoform\"", &["no kind of feature \"clinoform\"", "did you mean \"clinoforms\"?"]),
+    ("kind = \"clinoforms\"", "kind = ▸\"clinofroms\"", &["no kind of feature \"clinofroms\"", "did you mean \"clinoforms\"?"]),
     ("parent = \"upper\"", "parent = ▸\"scour\"", &["feature \"upper-set\" has the parent \"scour\", which is of the kind channel", "kind = \"horizon\""]),
     ("parent = \"upper\"", "parent = ▸\"uper\"", &["which is not a feature", "did you mean \"upper\"?"]),
     ("parent = \"upper\"", "parent = ▸\"lower-set\"", &["which is of the kind clinoforms"]),
