@@ -85,7 +85,8 @@ fn between_clinoforms_lies_spacing_times_height_for_each_metre_of_strike() {
 
 #[test]
 fn the_general_fuse_makes_the_same_clinoforms_and_sheets() {
-    for (text, names) in [(DELTA, &["delta-1", "delta-4"][..]), (SHEET, &["sheet"])] {
+    let two = DELTA.replace("sheets = 4", "sheets = 2");
+    for (text, names) in [(&*two, &["delta-1", "delta-2"][..]), (SHEET, &["sheet"])] {
         let [one, other] = [Engine::Partition, Engine::Occt].map(|engine| built(text, &[], engine));
         assert_eq!(one.solids(), other.solids());
         for name in names {

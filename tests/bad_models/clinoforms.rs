@@ -18,7 +18,7 @@ const CLINOFORM_EDITS: &[Edit] = &[
     ("height = 15", "height = ▸0", &["the height of feature \"delta\" is 0; it must be above 0"]),
     ("crest = -5", "crest = ▸\"high\"", &["for the crest of feature \"delta\""]),
     ("length = 200\n", "", &["feature \"delta\" has no `length`", "length = 400"]),
-    ("length = 200", "length = ▸{ normal = [200, 50] }", &["the distribution of the length of feature \"delta\" has no limit below"]),
+    ("length = 200", "length = ▸{ normal = [200, 50] }", &["the distribution of the length of feature \"delta\" has no limit on one side", "truncate it with min"]),
     ("dip_deg = 8", "dip_deg = ▸85", &["the dip_deg of feature \"delta\" is 85", "at most at 80 degrees"]),
     ("dip_deg = 8", "▸dip = 8", &["unknown key `dip` in feature \"delta\"", "did you mean `dip_deg`?"]),
     ("toe = 0.3", "toe = ▸0", &["the toe of feature \"delta\" is 0", "between 0.02"]),

@@ -18,7 +18,7 @@ const NET_EDITS: &[Edit] = &[
     ("degree = [1, 2]", "degree = ▸[1]", &["expected a degree, or two, for net 1 of feature \"fold\", found a list of 1"]),
     ("degree = [1, 2]", "degree = [2, 2]", &["from row to row", "2 control points are too few for degree 2"]),
     ("degree = [1, 2]", "▸degrees = [1, 2]", &["unknown key `degrees` in net 1 of feature \"fold\"", "did you mean `degree`?"]),
-    ("[[-5, -5, -10], [-5, 50, -20], [-5, 105, -10]]", "▸[[-5, -5, -10], [-5, 50, -20]]", &["row 2 of net 1 of feature \"fold\" has 3 points, the first row 2"]),
+    ("[[50, -5, -10], [50, 50, -12], [50, 105, -10]]", "▸[[50, -5, -10], [50, 50, -12]]", &["row 2 of net 1 of feature \"fold\" has 2 points, the first row 3", "as many points"]),
     ("[-5, 50, -20]", "▸[-5, 50]", &["expected a list of 3 numbers, found 2"]),
     ("[-5, 50, -20]", "[-5, 50, ▸nan]", &["NaN is not a finite number"]),
     ("points = [[[-5, -5, -10], [-5, 50, -20], [-5, 105, -10]], [[50, -5, -10], [50, 50, -12], [50, 105, -10]]]", "points = ▸[[[-5, -5, -10], [-5, 50, -20]]]", &["expected a list of two rows or more for the points of net 1", "found a list of 1"]),
