@@ -178,6 +178,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
     match place {
         "a belt" => defined("Belt"),
         "a drape" => defined("Drape"),
+        "a junction" => defined("Joins"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

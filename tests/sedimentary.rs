@@ -288,7 +288,7 @@ fn levees_of_all_bends_a_splay_and_a_mouth_bar_are_proven_against_their_channel(
         taper: 0.4,
         skew: 0.7,
     };
-    shells.push(splay.lobe(&reach).build().unwrap().shell().unwrap());
+    shells.push(splay.shell(&reach).unwrap());
     let end = reach.trajectory().at(reach.trajectory().length());
     let bar = LobeDesign::mouth_bar(&end, 50.0, 4.4, -5.0)
         .build()

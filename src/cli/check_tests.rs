@@ -16,6 +16,8 @@ fn volume(name: &str, feature: &str, kind: &str) -> VolumeRules {
         preserve: false,
         from: None,
         above: None,
+        piece_of: None,
+        along: None,
     }
 }
 

@@ -9,9 +9,17 @@
 //! τ tapers the plan (0 is an ellipse; above 0 it is widest downstream), λ skews the thickness (above 0 it is thickest upstream).
 //! The plan's area is π a b, the volume (π/2) a b H (1 − λτ/6).
 //!
-//! The cap is exact: a quarter of the circle is c(v)/w(v), s(v)/w(v) with quadratic c, s, w, so with r = u the homogeneous
-//! coordinates W = w², x W = a u c w, y W = b (u s w + τ u² c s) and z W = base w² + H (1 − u²)(w² − λ u c w) are polynomials of
-//! degree 3 in u and 4 in v. Cap and base share the rim's control points; in the middle both have a pole.
+//! The cap is exact: a quarter of the circle is c(v)/w(v), s(v)/w(v) with quadratic c, s, w. Lines of v run from a pole at X = p on the
+//! axis (the middle, unless something else is asked for) straight to the circle, X = p (1 − u) + u c/w and Y = u s/w. So with W = w² the
+//! homogeneous coordinates
+//!
+//! ```text
+//! x W = a (p (1 − u) w² + u c w)
+//! y W = b (u s w + τ (p u (1 − u) s w + u² c s))
+//! z W = base w² + H (1 − u) (A w − 2 p u c)(B w − λ u c),   A = 1 + u − p² (1 − u),   B = 1 − λ p (1 − u)
+//! ```
+//!
+//! are polynomials of degree 3 in u and 4 in v. Cap and base share the rim's control points; both have the pole.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -76,6 +84,9 @@ pub enum LobeError {
         /// The number.
         value: f64,
     },
+    /// A pole beyond the rim.
+    #[error("the lobe's pole is at {0} of half its length: keep it between −1 and 1")]
+    Pole(f64),
     /// A place or a direction that is none.
     #[error("the lobe's centre {center} and azimuth {azimuth} must be finite")]
     Place {
@@ -196,7 +207,17 @@ impl Lobe {
 
     /// Its closed shell: [`Role::Top`], the cap, and [`Role::Base`], u from the pole to the rim.
     pub fn shell(&self) -> Result<Shell, LobeError> {
-        let (net, weights) = self.cap();
+        self.shell_about(0.0)
+    }
+
+    /// The same with its pole elsewhere on the axis, at X between −1 and 1: where nothing passes by, since next to a pole curves
+    /// are hard to follow.
+    pub fn shell_about(&self, pole: f64) -> Result<Shell, LobeError> {
+        // Written so that a number that is none fails too.
+        if !(pole.abs() < 1.0) {
+            return Err(LobeError::Pole(pole));
+        }
+        let (net, weights) = self.cap(pole);
         let around: Vec<f64> = (0..=4)
             .flat_map(|quarter| {
                 let times = if quarter % 4 == 0 { 5 } else { 4 };
@@ -214,40 +235,70 @@ impl Lobe {
     }
 
     /// Control points and weights of the cap: 4 along u, 17 around.
-    fn cap(&self) -> (Vec<DVec3>, Vec<f64>) {
-        // Bernstein coefficients in u of u, u², 1 − u² and u (1 − u²).
-        let radial: [[f64; 4]; 4] = std::array::from_fn(|i| {
-            let first = i as f64 / 3.0;
-            let second = [0.0, 0.0, 1.0 / 3.0, 1.0][i];
-            [first, second, 1.0 - second, first - [0.0, 0.0, 0.0, 1.0][i]]
-        });
+    fn cap(&self, pole: f64) -> (Vec<DVec3>, Vec<f64>) {
+        let LobeDesign { taper, skew, .. } = self.design;
+        // Polynomials in u, by their powers: 1 − u, A, B.
+        let inward = [1.0, -1.0];
+        let wide = [1.0 - pole * pole, 1.0 + pole * pole];
+        let thick = [1.0 - skew * pole, skew * pole];
+        let times = |a: &[f64], b: &[f64]| {
+            let mut product = [0.0; 4];
+            for (i, a) in a.iter().enumerate() {
+                for (j, b) in b.iter().enumerate() {
+                    product[i + j] += a * b;
+                }
+            }
+            product
+        };
+        let u = [0.0, 1.0];
+        let scaled = |a: [f64; 4], factor: f64| a.map(|power| factor * power);
+        let sum = |a: [f64; 4], b: [f64; 4]| std::array::from_fn(|i| a[i] + b[i]);
+        let [x_ww, x_cw] = [scaled(times(&inward, &[1.0]), pole), times(&u, &[1.0])];
+        let y_sw = sum(x_cw, scaled(times(&u, &inward), taper * pole));
+        let y_cs = scaled(times(&u, &u), taper);
+        let z_ww = times(&times(&inward, &wide)[..3], &thick);
+        let z_cw = sum(
+            scaled(times(&times(&inward, &u)[..3], &wide), -skew),
+            scaled(times(&times(&inward, &u)[..3], &thick), -2.0 * pole),
+        );
+        let z_cc = scaled(times(&times(&inward, &u)[..3], &u), 2.0 * pole * skew);
+        let radial = [x_ww, x_cw, y_sw, y_cs, z_ww, z_cw, z_cc].map(bernstein);
         let (mut net, mut weights) = (Vec::with_capacity(68), Vec::with_capacity(68));
-        for [linear, square, rest, skewed] in radial {
+        for row in 0..4 {
+            let [x_ww, x_cw, y_sw, y_cs, z_ww, z_cw, z_cc] = radial.map(|one| one[row]);
             for quarter in 0..4 {
-                let [ww, cw, sw, cs] = products(quarter);
+                let [ww, cw, sw, cs, cc] = products(quarter);
                 // A quarter begins where the one before it ends.
                 for k in usize::from(quarter > 0)..5 {
-                    let x = 0.5 * self.design.length * linear * cw[k];
-                    let across = linear * sw[k] + self.design.taper * square * cs[k];
-                    let y = 0.5 * self.design.width * across;
-                    let z = self.height * (rest * ww[k] - self.design.skew * skewed * cw[k]);
-                    let plan = (self.axis * x + self.axis.perp() * y) / ww[k];
+                    let x = 0.5 * self.design.length * (x_ww * ww[k] + x_cw * cw[k]);
+                    let y = 0.5 * self.design.width * (y_sw * sw[k] + y_cs * cs[k]);
+                    let z = self.height * (z_ww * ww[k] + z_cw * cw[k] + z_cc * cc[k]);
                     // The rim is at the base's elevation to the last bit.
-                    net.push(self.design.center + plan.extend(z / ww[k]));
+                    let z = if row == 3 { 0.0 } else { z / ww[k] };
+                    let plan = (self.axis * x + self.axis.perp() * y) / ww[k];
+                    net.push(self.design.center + plan.extend(z));
                     weights.push(ww[k]);
                 }
             }
         }
-        // The seam is closed to the last bit.
+        // The seam is closed, and the pole a point, to the last bit.
         for row in net.chunks_mut(17) {
             row[16] = row[0];
         }
+        let (first, rest) = net.split_at_mut(1);
+        rest[..16].fill(first[0]);
         (net, weights)
     }
 }
 
-/// Of a quarter of the unit circle, c/w and s/w: the Bernstein coefficients of w², c w, s w and c s.
-fn products(quarter: usize) -> [[f64; 5]; 4] {
+/// Bernstein coefficients of a polynomial of degree 3 given by its powers.
+fn bernstein(powers: [f64; 4]) -> [f64; 4] {
+    let [a, b, c, d] = powers;
+    [a, a + b / 3.0, a + 2.0 * b / 3.0 + c / 3.0, a + b + c + d]
+}
+
+/// Of a quarter of the unit circle, c/w and s/w: the Bernstein coefficients of w², c w, s w, c s and c².
+fn products(quarter: usize) -> [[f64; 5]; 5] {
     let corner = |k: usize| [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y][k % 4];
     let (from, to) = (corner(quarter), corner(quarter + 1));
     let middle = (from + to) * FRAC_1_SQRT_2;
@@ -261,6 +312,7 @@ fn products(quarter: usize) -> [[f64; 5]; 4] {
         product(&c, &w),
         product(&s, &w),
         product(&c, &s),
+        product(&c, &c),
     ]
 }
 

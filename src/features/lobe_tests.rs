@@ -47,12 +47,41 @@ fn every_point_of_the_cap_satisfies_the_equation() {
 }
 
 #[test]
-fn cap_and_base_share_the_rim_to_the_last_bit() {
-    let shell = LOBE.build().unwrap().shell().unwrap();
-    let [top, base] = [Role::Top, Role::Base].map(|role| shell.sheet(role).unwrap());
-    assert_eq!(top.net()[3 * 17..], base.net()[3 * 17..]);
-    assert!(top.net()[3 * 17..].iter().all(|p| p.z == -20.0));
-    assert_eq!(top.net()[0], top.net()[9]);
+fn cap_and_base_share_the_rim_to_the_last_bit_and_both_have_a_pole() {
+    let lobe = LOBE.build().unwrap();
+    for pole in [0.0, -0.86, 0.3] {
+        let shell = lobe.shell_about(pole).unwrap();
+        let [top, base] = [Role::Top, Role::Base].map(|role| shell.sheet(role).unwrap());
+        assert_eq!(top.net()[3 * 17..], base.net()[3 * 17..]);
+        assert!(top.net()[3 * 17..].iter().all(|p| p.z == -20.0));
+        for net in [top.net(), base.net()] {
+            assert!(net[..17].iter().all(|p| *p == net[0]));
+        }
+    }
+    assert!(lobe.shell_about(1.0).is_err() && lobe.shell_about(f64::NAN).is_err());
+}
+
+#[test]
+fn wherever_the_pole_is_the_cap_is_the_same() {
+    let lobe = LOBE.build().unwrap();
+    for pole in [-0.86, -0.3, 0.6] {
+        let shell = lobe.shell_about(pole).unwrap();
+        let top = shell.sheet(Role::Top).unwrap();
+        for i in 0..=40 {
+            for j in 0..=97 {
+                let (u, v) = (f64::from(i) / 40.0, f64::from(j) / 97.0);
+                let p = top.point(u, v);
+                let at = disc(&LOBE, p);
+                let height = lobe.height * (1.0 - at.length_squared()) * (1.0 - 0.7 * at.x);
+                assert!((p.z + 20.0 - height).abs() < 1e-11, "{u} {v} {pole}");
+                // Straight in the disc, from the pole to the circle.
+                let rim = disc(&LOBE, top.point(1.0, v));
+                assert!((rim.length() - 1.0).abs() < 1e-12);
+                let wanted = DVec2::new(pole, 0.0).lerp(rim, u);
+                assert!((at - wanted).length() < 1e-11, "{u} {v} {pole}");
+            }
+        }
+    }
 }
 
 /// ∬ (z − base) dA and the area in plan, by quadrature of the cap.

@@ -4,14 +4,18 @@
 //! little below that top, as deep as the flood eroded. What it has above that top stays, over the channel too.
 
 use super::levee::Bank;
-use super::lobe::LobeDesign;
-use super::reach::Reach;
+use super::lobe::{LobeDesign, LobeError};
+use super::reach::{Reach, Station};
+use super::shell::Shell;
 use super::trajectory::{Place, azimuth_vector};
 
 /// How far inside the channel a splay begins, as a fraction of its length.
 const ROOT: f64 = 0.15;
 /// The farthest that it begins from the rim, in the channel's widths: not beyond the other bank.
 const FARTHEST: f64 = 0.5;
+
+/// How far from its upstream end its pole is, as a part of the way to the rim of the channel.
+const POLE: f64 = 0.75;
 
 /// A splay's parameters, sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +41,20 @@ pub struct SplayDesign {
 }
 
 impl SplayDesign {
+    /// Its closed shell. Its pole is over the channel, which takes what lies there below its top: nothing else passes by.
+    pub fn shell(&self, reach: &Reach) -> Result<Shell, LobeError> {
+        let way = self.inside(&reach.station(self.at));
+        // X runs from −1 to 1 over the length.
+        let pole = 2.0 * POLE * way / self.length - 1.0;
+        self.lobe(reach).build()?.shell_about(pole.min(0.0))
+    }
+
+    /// How far inside of the rim it begins, along its axis (m).
+    fn inside(&self, station: &Station) -> f64 {
+        let inward = FARTHEST * station.width / self.angle.sin().abs();
+        (ROOT * self.length).min(inward)
+    }
+
     /// The lobe that it is.
     pub fn lobe(&self, reach: &Reach) -> LobeDesign {
         let station = reach.station(self.at);
@@ -48,8 +66,7 @@ impl SplayDesign {
         };
         let azimuth = downstream + side * self.angle;
         let rim = station.place.right() * (station.middle.x + side * 0.5 * station.width);
-        let inward = FARTHEST * station.width / self.angle.sin().abs();
-        let back = (ROOT * self.length).min(inward);
+        let back = self.inside(&station);
         let apex = station.place.point + rim - back * azimuth_vector(azimuth);
         let design = LobeDesign {
             center: apex.extend(station.middle.y - self.erosion * self.thickness),

@@ -27,7 +27,16 @@ fn the_examples_of_the_reference_are_good() {
     }
     assert_eq!(
         kinds,
-        ["ellipsoid", "horizon", "clinoforms", "lag", "point-bars"]
+        [
+            "channel",
+            "ellipsoid",
+            "horizon",
+            "clinoforms",
+            "lag",
+            "point-bars",
+            "levee",
+            "splay"
+        ]
     );
     // Lines that stand for themselves are put into the whole example, one at a time.
     let mut lines = 0;

@@ -179,12 +179,8 @@ impl Kind for SplaySpec {
             taper: draws.quantity(&self.taper, "taper")?,
             skew: draws.quantity(&self.skew, "skew")?,
         };
-        let impossible = |error: &dyn ToString| ("impossible splay", error.to_string());
-        let lobe = design
-            .lobe(reach)
-            .build()
-            .map_err(|error| impossible(&error))?;
-        let shell = lobe.shell().map_err(|error| impossible(&error))?;
+        let shell = design.shell(reach);
+        let shell = shell.map_err(|error| ("impossible splay", error.to_string()))?;
         Ok(Made::body(Body::Shell(shell), draws.taken()))
     }
 }
