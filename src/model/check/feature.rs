@@ -12,6 +12,7 @@ use crate::model::references::Host;
 use crate::model::spec::Feature;
 use crate::model::tree::{NodeId, Value, quoted};
 use crate::model::values::facies::{FaciesList, is_id};
+use crate::model::values::property::PropertySpec;
 
 /// The most instances that one feature may have.
 const MOST_OF_ONE: u64 = 10_000;
@@ -307,6 +308,21 @@ impl Checker<'_> {
         }
     }
 
+    /// The rock properties of a feature's own volumes.
+    fn own_properties(&self, node: NodeId, name: &str) -> Option<Vec<(String, PropertySpec)>> {
+        let what = format!("the properties of {name}");
+        if matches!(self.reader.tree.value(node), Value::Table(_)) {
+            return self.properties(node, &what);
+        }
+        let found = self.reader.tree.describe(node);
+        self.reader.wrong(
+            node,
+            format!("expected a table for {what}, found {found}"),
+            "write properties = { porosity = 0.25, permeability = { lognormal = [500, 300] } }",
+        );
+        None
+    }
+
     fn feature(
         &mut self,
         draft: &Draft,
@@ -342,23 +358,7 @@ impl Checker<'_> {
         let conform = self.conform(draft, family);
         let properties = match draft.file.properties {
             None => Some(Vec::new()),
-            Some(Field::Good(at, Any)) => match self.reader.tree.value(at) {
-                Value::Table(_) => {
-                    self.properties(at, &format!("the properties of {}", draft.name))
-                }
-                _ => {
-                    let found = self.reader.tree.describe(at);
-                    self.reader.wrong(
-                        at,
-                        format!(
-                            "expected a table for the properties of {}, found {found}",
-                            draft.name
-                        ),
-                        "write properties = { porosity = 0.25, permeability = { lognormal = [500, 300] } }",
-                    );
-                    None
-                }
-            },
+            Some(Field::Good(at, Any)) => self.own_properties(at, &draft.name),
             Some(_) => None,
         };
         let title = self.title(draft.file.name.as_ref(), &draft.name);
