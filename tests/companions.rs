@@ -75,8 +75,8 @@ fn a_levee_outside_of_its_crest_has_the_section_of_the_closed_form() {
             "{taper}: {found} {wanted}"
         );
         assert_eq!(made.pieces("channel/levee-left"), 1);
-        let right = made.volume("channel/levee-right");
-        assert!(made.assembly.measured.pieces_of(right).is_empty());
+        // Of what lies outside of the block there is no volume.
+        assert!(made.realisation.volume("channel/levee-right").is_none());
     }
 }
 
@@ -109,7 +109,7 @@ const BEND: &str = "feature.channel.trajectory={ kind = \"sine-generated\", ampl
 
 #[test]
 fn bodies_along_several_bends_are_one_volume_and_one_solid() {
-    let made = all(STRAIGHT, &[BEND]);
+    let made = all(STRAIGHT, &[BEND, "feature.levee.width=25"]);
     let names = ["channel/levee-left", "channel/levee-right"];
     for name in names {
         assert_eq!(made.pieces(name), 1, "{name}");
@@ -145,10 +145,9 @@ trajectory = {{ kind = \"line\", from = [150, -200], to = [160, 200] }}
     assert!(made.contact("channel", "channel/levee-left") > 100.0);
     assert_eq!(made.pieces("channel/levee-left"), 2);
     assert!(made.contact("young", "channel/levee-left") > 10.0);
-    assert_eq!(
-        made.size("young"),
-        all(&crossing, &["feature.levee.enabled=false"]).size("young")
-    );
+    let without = all(&crossing, &["feature.levee.enabled=false"]);
+    let [one, other] = [&made, &without].map(|made| made.size("young"));
+    assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
 }
 
 #[test]
@@ -176,7 +175,8 @@ fn each_instance_has_its_own_levees_and_takes_them_with_it() {
     let some = built(&text, &[], &without(&["channel-2"]));
     assert_eq!(names(&some), expected(&[1, 3]));
     // What is left is as it was: the youngest is cut by nothing.
-    assert_eq!(some.size("channel-3"), whole.size("channel-3"));
+    let [one, other] = [&some, &whole].map(|made| made.size("channel-3"));
+    assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
     let one = built(&text, &[], &without(&["channel-2/levee-left"]));
     assert_eq!(names(&one).len(), 9);
     assert!(one.realisation.volume("channel-2/levee-left").is_none());

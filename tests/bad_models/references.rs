@@ -24,7 +24,7 @@ const EDITS: &[Edit] = &[
     ("{ like = \"valley-2\" }", "{ like = \"valley-2\", ▸ofset = 3 }", &["unknown key `ofset`", "did you mean `offset`?"]),
     ("{ like = \"valley-2\" }", "{ like = ▸\"unit/valley-2\" }", &["\"valley\" is not a part of \"unit\"", "by its own id: \"valley\""]),
     ("{ like = \"unit/rill-2\" }", "{ like = ▸\"unit/rill\" }", &["which of the 2 instances of feature \"rill\"", "\"rill-1\""]),
-    ("offset = 4 }", "offset = 4 }\nalong = ▸\"valley\"", &["feature \"stream\" goes along \"valley\", but nothing of the kind channel does so", "leave `along` out"]),
+    ("semi_axes = [6, 4, 2]", "semi_axes = [6, 4, 2]\nalong = ▸\"valley\"", &["feature \"nodule\" goes along \"valley\", but nothing of the kind ellipsoid does so", "leave `along` out"]),
     ("semi_axes = [6, 4, 2]", "semi_axes = [6, 4, 2]\nalong = ▸\"valey\"", &["feature \"nodule\" goes along \"valey\", which is not a feature", "did you mean \"valley\"?"]),
     ("semi_axes = [6, 4, 2]", "semi_axes = [6, 4, 2]\nparent = \"unit\"\nalong = ▸\"valley\"", &["feature \"nodule\" has the parent \"unit\", and `along`, too", "keep one"]),
 ];
