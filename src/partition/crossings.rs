@@ -352,7 +352,9 @@ fn follow(
         let mut search = Search::new(pair, clip, branches, found, &matters);
         search.twins = twins;
         search.run();
-        faults.undecided += search.undecided + usize::from(search.gave_up());
+        // Where a curve may be missed nothing is decided.
+        faults.undecided +=
+            search.undecided + search.uncertain + usize::from(search.gave_up());
         certificates = Certificates {
             certain: search.certain,
             uncertain: search.uncertain,

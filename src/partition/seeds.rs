@@ -18,6 +18,8 @@ use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 2e-7;
+/// The smallest patches beside a pole may be as far from a curve that passes there, as a fraction of the domain's size.
+const NEAR: f64 = 2e-5;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
 /// Undecided places of one pair of sheets after which no more are looked for: nothing is made of them anyway.
@@ -387,7 +389,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             .newton(&mut q, closing, 10)
             .then(|| self.pair.node(q, None))
             .flatten();
-        let near = 2.0 * LEAST * self.pair.tolerances.scale;
+        let near = NEAR * self.pair.tolerances.scale;
         landed.is_some_and(|at| {
             at.sine > STEEP
                 && at.point().distance(node.point()) < near
