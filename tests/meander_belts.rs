@@ -136,7 +136,7 @@ fn a_belt_that_cannot_be_is_refused_with_its_position() {
         let error = Realisation::new(&model, &Selection::default()).unwrap_err();
         error.to_string()
     };
-    let error = refused(&["feature.belt.amplitude=[40, 160]", "feature.belt.width=150"]);
+    let error = refused(&["feature.belt.amplitude=[40, 160]", "feature.belt.width=260"]);
     assert!(error.contains("position "), "{error}");
     let model = from_text(BELT, &[]);
     let error = Realisation::new(&model, &without(&["belt-5"])).unwrap_err();

@@ -177,13 +177,16 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             let guess = linear::guess(&a.patch, &b.patch, BESIDE);
             let place = self.locate(a, b, &guess, BESIDE);
             let is_near = place.and_then(|place| self.follow(place)).is_some();
-            if !is_near && !self.passes_by(a, b) {
+            // Beside a pole directions say nothing; a curve that is known, and no contact, is all that there is room for.
+            if self.passes_by(a, b) {
+                self.certain += 1;
+            } else if is_near {
+                self.doubt(a);
+            } else {
                 let [u, v] = a.patch.middle();
                 let point = self.pair.sheets[0].point(u, v);
                 self.undecided += usize::from((self.matters)(point));
-                return;
             }
-            self.doubt(a);
             return;
         }
         let unlike = size_a > RATIO * size_b || size_b > RATIO * size_a;
@@ -261,13 +264,14 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// Whether a curve along a border of one of two patches, on either side of it, is all that the two have in common: with a
     /// strip of the sheet behind that border it never leaves through it.
-    fn runs_along(&mut self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+    fn runs_along(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
         if !(a.lean() < STRAIGHT && b.lean() < STRAIGHT) {
             return false;
         }
         let guess = linear::guess(&a.patch, &b.patch, STRIP);
         let place = self.locate(a, b, &guess, STRIP);
-        let Some((branch, t)) = place.and_then(|place| self.follow(place)) else {
+        // What is not known yet is found in the halves.
+        let Some(Place::On(branch, t)) = place else {
             return false;
         };
         let ranges = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];

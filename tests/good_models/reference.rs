@@ -28,8 +28,8 @@ fn the_examples_of_the_reference_are_good() {
     assert_eq!(
         kinds,
         [
-            "meander-belt",
             "channel",
+            "meander-belt",
             "ellipsoid",
             "horizon",
             "clinoforms",

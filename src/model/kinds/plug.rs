@@ -82,10 +82,10 @@ pub(crate) struct PlugFile {
     /// How much nearer to the outer bank it lies in the channel's sharpest bend, as a fraction of the channel's width, between 0 and 0.5; 0.1 if left out. Elsewhere it is less, as the channel's curvature is.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) offset_fraction: Option<Field<Any>>,
-    /// Where it begins, as a fraction of the channel's length; 0 if left out. Within the channel it begins with an upright face.
+    /// Where it begins, as a fraction of the channel's length; where that begins if left out. Within the channel it begins with an upright face.
     #[schemars(range(min = 0, max = 1))]
     pub(crate) from: Option<Field<f64>>,
-    /// Where it ends, as a fraction of the channel's length; 1 if left out. Within the channel it ends in an upright face.
+    /// Where it ends, as a fraction of the channel's length; where that ends if left out. Within the channel it ends in an upright face.
     #[schemars(range(min = 0, max = 1))]
     pub(crate) to: Option<Field<f64>>,
     /// The bend that was cut off, counted downstream from 1 among those that turn by 20° or more and are longer than two widths: the plug fills this one alone, and thins out to nothing at both of its inflections. Not together with `from` and `to`.

@@ -93,7 +93,11 @@ impl JsonSchema for BentProfile {
         let quantity = generator.subschema_for::<Quantity>();
         let mut schema = Profile::json_schema(generator);
         if let Some(Json::Object(keys)) = schema.get_mut("properties") {
-            keys.insert("by_curvature".to_owned(), quantity.to_value());
+            let words = "How much where the trajectory turns most sharply: to the right of the centre where it turns left.";
+            keys.insert(
+                "by_curvature".to_owned(),
+                json!({ "allOf": [quantity], "description": words }),
+            );
         }
         if let Some(Json::Array(forms)) = schema.get_mut("oneOf") {
             forms.push(json!({ "required": ["by_curvature"] }));
