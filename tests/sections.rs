@@ -93,17 +93,6 @@ fn a_straight_channel_has_its_sections_area_times_its_length() {
 }
 
 #[test]
-fn the_general_fuse_makes_the_same_of_corners_weights_and_tubes() {
-    for section in [TRAPEZOID, HALF_ELLIPSE, PIPE] {
-        let [one, other] = [Engine::Partition, Engine::Occt].map(|engine| {
-            let built = built(STRAIGHT, &[section, MEANDER, WIDER], engine);
-            built.size("channel")
-        });
-        assert!((one - other).abs() < 1e-6 * one, "{section}: {one} {other}");
-    }
-}
-
-#[test]
 fn a_channel_along_bends_has_the_volume_of_pappus() {
     // Symmetrical sections count by the length of the way of their middle, here within the block's walls.
     let text = STRAIGHT.replace(
@@ -130,7 +119,7 @@ fn a_channel_along_bends_has_the_volume_of_pappus() {
 #[test]
 fn what_lies_in_a_channel_lies_in_any_section_with_rims() {
     let text = format!("{STRAIGHT}{IN_IT}");
-    for section in [TRAPEZOID, PARABOLA, HALF_ELLIPSE] {
+    for section in [TRAPEZOID, PARABOLA] {
         let overrides = [section, MEANDER, WIDER];
         let whole = built(STRAIGHT, &overrides, Engine::Partition).size("channel");
         let built = built(&text, &overrides, Engine::Partition);
