@@ -82,7 +82,7 @@ const SCOUR: f64 = 0.405_919 * 20.0 * 3.0 * 200.0 * (1.0 - 0.55 / 3.0);
 fn to_a_plane_a_body_conforms_exactly() {
     let one = built(WARPED, &["feature.scour.conform.to=\"plane\""]);
     assert!(deviation(&one, "scour") < 1e-12);
-    // The rims are 4 m below the plane, and a two-hundredth of the depth higher.
+    // The rims are 4 m below the plane, and a fiftieth of the depth higher.
     let Body::Shell(shell) = body(&one, "scour") else {
         panic!("it is a shell")
     };
@@ -93,7 +93,7 @@ fn to_a_plane_a_body_conforms_exactly() {
     };
     let tops = shell.sheets().iter().filter(|sheet| sheet.0 == Role::Top);
     for p in tops.flat_map(|sheet| sheet.1.net()) {
-        assert!((p.z - (plane(*p) - 4.0 + 0.015)).abs() < 1e-11, "{p}");
+        assert!((p.z - (plane(*p) - 4.0 + 0.06)).abs() < 1e-11, "{p}");
     }
     assert!((one.size("scour") / SCOUR - 1.0).abs() < 2e-4);
 }
@@ -243,8 +243,8 @@ fn a_scour_runs_down_a_clinoform_and_a_concretion_lies_below_one() {
             one.size("scour"),
             0.405_919 * 16.0 * 2.0 * 180.0 * (1.0 - 0.55 / 3.0),
         );
-        // Above the clinoform is what is a two-hundredth of the depth or less below the rims.
-        assert!(scour < area && scour > 0.95 * area, "{scour} {area}");
+        // Above the clinoform is what is a fiftieth of the depth or less below the rims.
+        assert!(scour < area && scour > 0.87 * area, "{scour} {area}");
         // Nothing of it is in the clinothem above, which lies on it.
         let above = if belts.is_empty() {
             "ramp/clino-3".to_owned()

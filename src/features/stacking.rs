@@ -101,16 +101,15 @@ impl Region {
     }
 }
 
-/// A lobe filled down to a level (m): its cap, walls below the rim, and a flat base, which is a fraction of its plan about a middle. A
-/// younger lobe takes nothing from older ones, so what of it lies in these may be anything; a base that follows them would run along them,
-/// hardly ever crossing, for nothing. Walls lean, each lobe's by an angle of its own: where upright ones touch, they do so along a line.
-pub fn filled(lobe: &Shell, level: f64, fraction: f64, middle: DVec2) -> Result<Shell, ShellError> {
+/// A lobe filled down to a level (m): its cap, walls below the rim, and a flat base. A younger lobe takes nothing from older ones, so
+/// what of it lies in these may be anything; a base that follows them would run along them, hardly ever crossing, for nothing.
+pub fn filled(lobe: &Shell, level: f64) -> Result<Shell, ShellError> {
     let mut sheets = Vec::with_capacity(lobe.sheets().len() * 3 / 2);
     for (role, cap) in lobe.sheets() {
         if *role != Role::Top {
             continue;
         }
-        let base = cap.mapped(|p| (middle + fraction * (p.truncate() - middle)).extend(level))?;
+        let base = cap.mapped(|p| p.with_z(level))?;
         let rim = cap.knots_u().domain().1;
         let wall = Surface::ruled(&cap.isocurve_u(rim), &base.isocurve_u(rim))?;
         sheets.push((*role, cap.clone()));

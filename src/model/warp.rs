@@ -29,7 +29,7 @@ pub(crate) struct Warp {
 }
 
 /// How far a body may be from where it should be, as a fraction of its height …
-const TOLERANCE: f64 = 0.002;
+const TOLERANCE: f64 = 0.01;
 /// … and at most (m).
 const MOST: f64 = 0.05;
 

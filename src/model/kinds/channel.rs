@@ -35,7 +35,7 @@ use crate::model::values::trajectory::{self, TrajectorySpec};
 const OVERSHOOT: f64 = 0.05;
 /// How far the rims of a channel that conforms to a surface stand above it, as a fraction of the depth: its top does not run along
 /// the surface.
-const PROUD: f64 = 0.005;
+const PROUD: f64 = 0.02;
 const DEFAULT_ANGLE_LIMIT_DEG: f64 = 15.0;
 const DEFAULT_TOLERANCE_FRACTION: f64 = 0.01;
 /// Below these sections are so dense that nothing is gained, and surfaces take gigabytes.

@@ -38,10 +38,6 @@ const LEAST: f64 = 0.005;
 /// younger one is.
 const BELOW: f64 = 0.6;
 const STAGGER: f64 = 0.01;
-/// The greatest part of a lobe's plan that its hidden base has, and by how much that of others is smaller …
-const LEAN: [f64; 2] = [0.95, 0.1];
-/// … as evenly as can be, whatever their number.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Places along the sides of a lobe's plan among which the lowest one is looked for.
 const PLACES: usize = 20;
 
@@ -182,9 +178,7 @@ impl Kind for LobesSpec {
             } else {
                 // Below the unit, each at a level of its own.
                 let depth = shape.thickness * (BELOW + STAGGER * number as f64);
-                let level = lowest(unit, lobe.plan()) - depth;
-                let fraction = LEAN[0] - LEAN[1] * (GOLDEN * number as f64).fract();
-                filled(&shell, level, fraction, center)
+                filled(&shell, lowest(unit, lobe.plan()) - depth)
                     .map_err(|error| ("impossible lobe", format!("lobe {number}: {error}")))?
             };
             stack.lay(&lobe, |at| pile.relief(at));

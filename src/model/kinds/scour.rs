@@ -33,7 +33,7 @@ const ANGLE_LIMIT: f64 = 0.26;
 const TOLERANCE: f64 = 2e-3;
 /// How far the rims of a scour that conforms to a surface stand above it, as a fraction of the depth: the surface ends the scour at
 /// an angle, and its top does not run along it.
-const PROUD: f64 = 0.005;
+const PROUD: f64 = 0.02;
 
 const PIT: Limits = Limits {
     low: 0.2,

@@ -40,7 +40,7 @@ pub(crate) struct ConformFile {
     /// Elevation in the body, as its own keys give it, that comes to lie on the surface; if left out, the rims of a scour or a channel, the centre of an ellipsoid, what a lobe lies on.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) reference: Option<Field<Any>>,
-    /// How far the body may be from where it should be, in metres, above 0; a five-hundredth of its height, but no more than 0.05, if left out.
+    /// How far the body may be from where it should be, in metres, above 0; a hundredth of its height, but no more than 0.05, if left out.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub(crate) tolerance: Option<Field<f64>>,
 }
