@@ -380,6 +380,16 @@ fn keys_of_kind(table: &Value, kind: &str) -> Vec<(String, Value)> {
     keys.collect()
 }
 
+/// Whether a key of a table says that it does not go together with this one.
+fn excluded(keys: &[(String, Value)], table: &Value, key: &str) -> bool {
+    let there = keys.iter().filter(|(other, _)| table.get(other).is_some());
+    let mut words = there.filter_map(|(_, schema)| schema["description"].as_str());
+    words.any(|words| {
+        let rest = words.split_once("Not together with");
+        rest.is_some_and(|(_, rest)| rest.contains(&format!("`{key}`")))
+    })
+}
+
 #[test]
 fn a_default_of_the_schema_is_what_a_key_that_is_left_out_means() {
     let schema = schema();
@@ -410,7 +420,7 @@ fn a_default_of_the_schema_is_what_a_key_that_is_left_out_means() {
     }
     for (model, place, keys) in places {
         let without = from_json(&model).unwrap();
-        for (key, schema) in keys {
+        for (key, schema) in keys.clone() {
             let mut with = model.clone();
             let mut at = &mut with;
             for step in &place {
@@ -422,6 +432,10 @@ fn a_default_of_the_schema_is_what_a_key_that_is_left_out_means() {
             let Some(default) = schema.get("default") else {
                 continue;
             };
+            // What another key that is there excludes means something else then.
+            if excluded(&keys, at, &key) {
+                continue;
+            }
             if at.get(&key).is_none() {
                 at[&key] = default.clone();
                 let with = from_json(&with);

@@ -19,6 +19,8 @@ use crate::nurbs::Surface;
 const ACROSS: usize = 48;
 /// Slopes below this are none: which way so flat a plane dips is rounding.
 const LEVEL: f64 = 1e-9;
+/// Entries of a tensor below this part of its greatest value are rounding.
+const ROUNDING: f64 = 1e-14;
 /// A way whose ends are nearer than this fraction of its length leads nowhere.
 const NOWHERE: f64 = 1e-6;
 
@@ -126,19 +128,25 @@ impl Fabric {
         }
     }
 
-    /// K = Σ kᵢ eᵢ eᵢᵀ of values along dip, strike and normal, by rows.
+    /// K = Σ kᵢ eᵢ eᵢᵀ of values along dip, strike and normal, by rows; symmetric to the last digit, and without what is rounding.
     pub fn tensor(&self, along: [f64; 3]) -> [[f64; 3]; 3] {
-        let axes = [self.dip, self.strike, self.normal];
-        let mut tensor = [[0.0; 3]; 3];
-        for (axis, k) in axes.into_iter().zip(along) {
-            let e = axis.to_array();
-            for (row, &a) in tensor.iter_mut().zip(&e) {
-                for (entry, &b) in row.iter_mut().zip(&e) {
-                    *entry += k * a * b;
-                }
+        let axes = [self.dip, self.strike, self.normal].map(|axis| axis.to_array());
+        let largest = along.iter().fold(0.0_f64, |most, k| most.max(k.abs()));
+        let entry = |row: usize, column: usize| {
+            let parts = axes.iter().zip(along);
+            let sum: f64 = parts.map(|(e, k)| k * e[row] * e[column]).sum();
+            if sum.abs() < ROUNDING * largest {
+                0.0
+            } else {
+                sum
             }
-        }
-        tensor
+        };
+        let [xy, xz, yz] = [entry(0, 1), entry(0, 2), entry(1, 2)];
+        [
+            [entry(0, 0), xy, xz],
+            [xy, entry(1, 1), yz],
+            [xz, yz, entry(2, 2)],
+        ]
     }
 }
 
