@@ -87,22 +87,6 @@ fn a_plug_that_ends_within_its_channel_has_that_part_of_it() {
 }
 
 #[test]
-fn the_general_fuse_makes_the_same_plug() {
-    let [one, other] = [Engine::Partition, Engine::Occt].map(|engine| {
-        let built = built(STRAIGHT, &["feature.plug.depth_fraction=0.95"], engine);
-        [
-            built.size("channel/plug"),
-            built.size("channel/lag"),
-            built.contact("channel/plug", "channel/lag"),
-            built.contact("channel/plug", "background"),
-        ]
-    });
-    for (one, other) in one.into_iter().zip(other) {
-        assert!((one - other).abs() < 1e-6 * one, "{one} {other}");
-    }
-}
-
-#[test]
 fn a_bend_that_was_cut_off_is_filled_between_its_inflections() {
     let overrides = [MEANDER, "domain.y=[-50, 150]", "feature.plug.bend=2"];
     let built = built(STRAIGHT, &overrides, Engine::Partition);

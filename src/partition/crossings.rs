@@ -353,8 +353,7 @@ fn follow(
         search.twins = twins;
         search.run();
         // Where a curve may be missed nothing is decided.
-        faults.undecided +=
-            search.undecided + search.uncertain + usize::from(search.gave_up());
+        faults.undecided += search.undecided + search.uncertain + usize::from(search.gave_up());
         certificates = Certificates {
             certain: search.certain,
             uncertain: search.uncertain,

@@ -18,7 +18,7 @@ use super::sheet::{NodeKind, Sheet};
 
 /// Patches are halved down to this fraction of the domain's size.
 const LEAST: f64 = 2e-7;
-/// The smallest patches beside a pole may be as far from a curve that passes there, as a fraction of the domain's size.
+/// How far small patches beside a pole may be from a curve that passes there, as a fraction of the domain's size.
 const NEAR: f64 = 2e-5;
 /// Most halvings of one pair of sheets: beyond, they run along each other.
 const MOST: usize = 400_000;
@@ -173,14 +173,17 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                 Verdict::Doubtful | Verdict::Open => {}
             }
         }
+        let near = 0.5 * NEAR * self.pair.tolerances.scale;
+        // Beside a pole directions say nothing; a curve that is known, and no contact, is all that there is room for.
+        if !is_flat && size_a < near && size_b < near && self.passes_by(a, b) {
+            self.certain += 1;
+            return;
+        }
         if is_small {
             let guess = linear::guess(&a.patch, &b.patch, BESIDE);
             let place = self.locate(a, b, &guess, BESIDE);
             let is_near = place.and_then(|place| self.follow(place)).is_some();
-            // Beside a pole directions say nothing; a curve that is known, and no contact, is all that there is room for.
-            if self.passes_by(a, b) {
-                self.certain += 1;
-            } else if is_near {
+            if is_near {
                 self.doubt(a);
             } else {
                 let [u, v] = a.patch.middle();
