@@ -175,7 +175,7 @@ fn a_line_beside_an_arc_is_an_arc_with_the_radius_less_or_more() {
         let beside = line.beside(offset).unwrap();
         let radius = 100.0 + offset;
         assert!(
-            (beside.length() - 1.5 * radius).abs() < 1e-9 * radius,
+            (beside.length() - 1.5 * radius).abs() < 1e-7 * radius,
             "{}",
             beside.length()
         );
@@ -215,6 +215,7 @@ fn a_line_beside_a_meander_is_as_far_away_everywhere_and_as_long() {
             .iter()
             .map(|other| other.point.distance(place.point));
         let nearest = nearest.fold(f64::INFINITY, f64::min);
-        assert!((nearest - 40.0).abs() < 0.05, "{nearest}");
+        // Places are some metres apart.
+        assert!((nearest - 40.0).abs() < 0.1, "{nearest}");
     }
 }
