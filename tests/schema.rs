@@ -390,13 +390,16 @@ fn excluded(keys: &[(String, Value)], table: &Value, key: &str) -> bool {
     })
 }
 
+/// A model, the place of a table in it, and what may stand there.
+type Tried = (Value, Vec<Value>, Vec<(String, Value)>);
+
 #[test]
 fn a_default_of_the_schema_is_what_a_key_that_is_left_out_means() {
     let schema = schema();
     let table = &schema["properties"]["feature"]["items"];
     let mut tried = Vec::new();
     // Where a table stands in the model, by keys and numbers; and what may stand in it.
-    let mut places: Vec<(Value, Vec<Value>, Vec<(String, Value)>)> = Vec::new();
+    let mut places: Vec<Tried> = Vec::new();
     for (kind, model) in one_of_each_kind() {
         let last = model["feature"].as_array().unwrap().len() - 1;
         let feature = vec![Value::from("feature"), Value::from(last)];

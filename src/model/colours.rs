@@ -259,6 +259,8 @@ fn shaded(color: Rgb, part: f64) -> Rgb {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::panic, reason = "a test fails by panicking")]
+
     use super::{NAMES, ROCKS, Rgb, named, of_facies};
 
     #[test]

@@ -17,13 +17,13 @@ enum Unknown {
     Host(usize, usize),
 }
 
-impl Checker<'_> {
-    /// The feature of which a text names a part (`lower-3`), with the part's name behind the feature's.
-    pub(crate) fn part_of(&self, text: &str, family: &Family<'_>) -> Option<(usize, String)> {
-        let named = named(text, family).ok()?;
-        (!named.part.is_empty()).then_some((named.feature, named.part))
-    }
+/// The feature of which a text names a part (`lower-3`), with the part's name behind the feature's.
+pub(crate) fn part_of(text: &str, family: &Family<'_>) -> Option<(usize, String)> {
+    let named = named(text, family).ok()?;
+    (!named.part.is_empty()).then_some((named.feature, named.part))
+}
 
+impl Checker<'_> {
     /// What a text names: a feature by its id, an instance (`valley-2`, `belt-1/valley-2`) or a part of one (`lower-3`). What is
     /// wrong is said of `what` (as "the trajectory of feature …").
     pub(crate) fn refer(

@@ -268,7 +268,6 @@ fn check_shape(curve: &Curve, close: Close) -> Result<(), OwnSectionError> {
         curves.push(Curve::new(line, ends.to_vec())?);
     }
     match crossing(&curves, true) {
-        None => {}
         Some([(0, one), (0, other)]) if one == other => {
             return Err(OwnSectionError::Turn { index: near(one) });
         }
@@ -281,7 +280,7 @@ fn check_shape(curve: &Curve, close: Close) -> Result<(), OwnSectionError> {
         Some([(0, one), _] | [_, (0, one)]) => {
             return Err(OwnSectionError::Top { index: near(one) });
         }
-        Some(_) => {}
+        None | Some(_) => {}
     }
     let highest = lowest_at(curve, DVec2::NEG_Y);
     if !is_closed && curve.point(highest).y > NEAR {

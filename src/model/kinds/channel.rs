@@ -90,7 +90,7 @@ pub(crate) struct ChannelFile {
     /// Depth of the deepest point (the thalweg) below the top, in metres, above 0.
     #[schemars(with = "Profile")]
     pub(crate) depth: Field<Any>,
-    /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; { by_curvature = 0.2 } moves it towards the outer banks of bends; 0 if left out.
+    /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; `{ by_curvature = 0.2 }` moves it towards the outer banks of bends; 0 if left out.
     #[schemars(with = "Option<BentProfile>")]
     pub(crate) asymmetry: Option<Field<Any>>,
     /// Angle of the left bank (looking along the trajectory) below the horizontal at the rim, in degrees, between 0 and 180; chosen by the section if left out.
@@ -106,13 +106,13 @@ pub(crate) struct ChannelFile {
     #[schemars(schema_with = "section_origin")]
     #[serde(default)]
     pub(crate) origin: Option<Field<String>>,
-    /// A section of one's own, in place of the usual one with its asymmetry and bank angles: { points, degree, weights, knots, close, depth_is }.
+    /// A section of one's own, in place of the usual one with its asymmetry and bank angles: `{ points, degree, weights, knots, close, depth_is }`.
     #[schemars(with = "Option<SectionFile>")]
     pub(crate) section: Option<Field<Any>>,
     /// The way that the channel takes, in plan.
     #[schemars(schema_with = "trajectory::schema")]
     pub(crate) trajectory: Field<Any>,
-    /// Where and how it joins the channel that it goes `along`: a tributary, whose trajectory leads on to that place; { at, angle_deg, side }.
+    /// Where and how it joins the channel that it goes `along`: a tributary, whose trajectory leads on to that place; `{ at, angle_deg, side }`.
     #[schemars(with = "Option<JoinsFile>")]
     pub(crate) joins: Option<Field<Any>>,
     /// A new section is set where the direction has turned by more than this, in degrees; 15 if left out.

@@ -277,12 +277,11 @@ fn lowest(surface: &Horizon, [low, high]: [DVec2; 2]) -> f64 {
 impl LobesSpec {
     /// Where the middles of lobes may be.
     fn region_in(&self, site: &Site<'_>) -> Result<Region, Reason> {
-        let region = match &self.region {
-            Some(corners) => Region::new(corners.iter().map(|p| DVec2::from_array(*p)).collect()),
-            None => {
-                let [x, y] = [site.domain.x, site.domain.y];
-                Region::rectangle(DVec2::new(x[0], y[0]), DVec2::new(x[1], y[1]))
-            }
+        let region = if let Some(corners) = &self.region {
+            Region::new(corners.iter().map(|p| DVec2::from_array(*p)).collect())
+        } else {
+            let [x, y] = [site.domain.x, site.domain.y];
+            Region::rectangle(DVec2::new(x[0], y[0]), DVec2::new(x[1], y[1]))
         };
         region.map_err(|error| ("impossible region", error.to_string()))
     }

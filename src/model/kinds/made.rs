@@ -94,15 +94,14 @@ impl<'a> Site<'a> {
                 || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
         let part = found.and_then(|(_, made)| made.parts.iter().find(is_it));
-        match part.map(|part| &part.body) {
-            Some(Body::Side(side)) => Ok(side),
-            _ => {
-                let message = format!(
-                    "there is no sheet number `{}` with this seed",
-                    reference.part.trim_start_matches('-')
-                );
-                Err(("no such referent", message))
-            }
+        if let Some(Body::Side(side)) = part.map(|part| &part.body) {
+            Ok(side)
+        } else {
+            let message = format!(
+                "there is no sheet number `{}` with this seed",
+                reference.part.trim_start_matches('-')
+            );
+            Err(("no such referent", message))
         }
     }
 

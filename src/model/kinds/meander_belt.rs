@@ -83,7 +83,7 @@ pub(crate) struct MeanderBeltFile {
     /// Depth of the channel's deepest point below its top, in metres, above 0.
     #[schemars(with = "Quantity")]
     pub(crate) depth: Field<Any>,
-    /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; { by_curvature = 0.2 } moves it towards the outer banks of bends; 0 if left out.
+    /// How far right of the centre the deepest point lies, as a fraction of the width, between -0.5 and 0.5; `{ by_curvature = 0.2 }` moves it towards the outer banks of bends; 0 if left out.
     #[schemars(with = "Option<BentProfile>")]
     pub(crate) asymmetry: Option<Field<Any>>,
     /// Elevation of the first position's top in metres; if left out, uniform between where the belt just fits into the domain above its base and below its top.
@@ -182,21 +182,20 @@ impl Kind for MeanderBeltSpec {
         let depth = draws.quantity(&self.depth, "depth")?;
         let asymmetry = self.asymmetry.draw(draws, "asymmetry")?;
         let rise = depth * draws.quantity(&self.aggradation_fraction, "aggradation_fraction")?;
-        let top = match &self.top {
-            Some(top) => draws.quantity(top, "top")?,
-            None => {
-                let lowest = domain.z[0] + depth;
-                let highest = domain.z[1] - rise * (self.steps - 1) as f64;
-                if !(lowest <= highest) {
-                    let message = format!(
-                        "the belt is {:.2} m high and the domain {:.2} m: make it shallower or give it a `top`",
-                        depth + domain.z[1] - highest,
-                        domain.z[1] - domain.z[0]
-                    );
-                    return Err(("higher than the domain", message));
-                }
-                draws.uniform(lowest, highest, "top")?
+        let top = if let Some(top) = &self.top {
+            draws.quantity(top, "top")?
+        } else {
+            let lowest = domain.z[0] + depth;
+            let highest = domain.z[1] - rise * (self.steps - 1) as f64;
+            if !(lowest <= highest) {
+                let message = format!(
+                    "the belt is {:.2} m high and the domain {:.2} m: make it shallower or give it a `top`",
+                    depth + domain.z[1] - highest,
+                    domain.z[1] - domain.z[0]
+                );
+                return Err(("higher than the domain", message));
             }
+            draws.uniform(lowest, highest, "top")?
         };
         let overshoot = 2.0 * width + OVERSHOOT * diagonal(domain);
         let migration = self.migration(site, overshoot, rise, draws)?;
@@ -269,13 +268,12 @@ impl MeanderBeltSpec {
         let azimuth = draws
             .quantity(&self.azimuth_deg, "azimuth_deg")?
             .to_radians();
-        let center = match &self.center {
-            Some(center) => draws.point(center, "center")?,
-            None => {
-                let x = draws.uniform(domain.x[0], domain.x[1], "center.x")?;
-                let y = draws.uniform(domain.y[0], domain.y[1], "center.y")?;
-                glam::DVec2::new(x, y)
-            }
+        let center = if let Some(center) = &self.center {
+            draws.point(center, "center")?
+        } else {
+            let x = draws.uniform(domain.x[0], domain.x[1], "center.x")?;
+            let y = draws.uniform(domain.y[0], domain.y[1], "center.y")?;
+            glam::DVec2::new(x, y)
         };
         let phase = match &self.phase {
             Some(phase) => draws.quantity(phase, "phase")?,

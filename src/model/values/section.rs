@@ -168,6 +168,10 @@ impl Checker<'_> {
     }
 
     /// A list of numbers that may be left out.
+    #[allow(
+        clippy::option_option,
+        reason = "what is wrong is not what is left out"
+    )]
     fn section_numbers(
         &self,
         field: Option<Field<Any>>,
