@@ -38,6 +38,10 @@ pub fn labels(model: &Model, volumes: &[VolumeRules]) -> Vec<Option<String>> {
 }
 
 /// A feature's label in the place with this label.
+#[cfg_attr(
+    not(feature = "occt"),
+    allow(dead_code, reason = "only files of solids want it")
+)]
 pub(crate) fn feature_label(model: &Model, above: &str, feature: &str) -> String {
     let found = model.features.iter().find(|one| one.id == feature);
     let title = found.and_then(|one| one.title.as_deref());

@@ -1,5 +1,6 @@
 //! Channels with what lies in and along them, scours, lobes, clinoforms and nets of one's own; nothing is equal by design. And the same with
 //! round numbers: children of channels that cross, meet and follow each other.
+#![allow(clippy::cast_possible_wrap, reason = "counts are small")]
 
 use toml::{Table, Value};
 
