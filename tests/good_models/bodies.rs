@@ -69,6 +69,7 @@ fn an_ellipsoid_can_be_overridden_and_lies_level_to_the_north_anywhere_if_not_to
 }
 
 #[test]
+#[allow(clippy::too_many_lines, reason = "a line or two for each key")]
 fn every_key_arrives_where_it_belongs() {
     let model = check(FULL, &[]).unwrap();
     assert_eq!(model.origin, [431_200.0, 6_521_300.0, -2000.0]);

@@ -56,8 +56,7 @@ fn the_examples_of_the_reference_are_good() {
         for line in block.lines() {
             let key = line.split(" =").next().unwrap();
             let text = match key {
-                "removes" | "removed_by" => whole.replace("count = 5", line),
-                "properties" => whole.replace("count = 5", line),
+                "removes" | "removed_by" | "properties" => whole.replace("count = 5", line),
                 "width" => whole.replace("width = 80", line),
                 "section" => whole.replace("width = 80", &format!("width = 80\n{line}")),
                 "trajectory" if !whole.contains(line) => whole.replace(
