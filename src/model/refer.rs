@@ -17,13 +17,14 @@ enum Unknown {
     Host(usize, usize),
 }
 
-/// The feature of which a text names a part (`lower-3`), with the part's name behind the feature's.
-pub(crate) fn part_of(text: &str, family: &Family<'_>) -> Option<(usize, String)> {
-    let named = named(text, family).ok()?;
-    (!named.part.is_empty()).then_some((named.feature, named.part))
-}
-
 impl Checker<'_> {
+    /// The feature of which a text names a part (`lower-3`), with the part's name behind the feature's.
+    #[allow(clippy::unused_self, reason = "selectors must not import this file")]
+    pub(crate) fn part_of(&self, text: &str, family: &Family<'_>) -> Option<(usize, String)> {
+        let named = named(text, family).ok()?;
+        (!named.part.is_empty()).then_some((named.feature, named.part))
+    }
+
     /// What a text names: a feature by its id, an instance (`valley-2`, `belt-1/valley-2`) or a part of one (`lower-3`). What is
     /// wrong is said of `what` (as "the trajectory of feature …").
     pub(crate) fn refer(

@@ -199,7 +199,7 @@ impl Checker<'_> {
             }
             return Some(Pick::Id(id.to_owned()));
         }
-        let part = crate::model::refer::part_of(id, family);
+        let part = self.part_of(id, family);
         let target = family.index.get(id).copied();
         let Some(target) = target.or(part.as_ref().map(|part| part.0)) else {
             let remedy = self.reader.hint(|| {
