@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::alone::{BORDER, Chords, Frame};
 use super::bounds::Bounds;
 use super::facet::Facet;
-use super::hermite::{Branch, Node};
+use super::hermite::{Branch, End, Node};
 use super::linear::{self, Guess};
 use super::pair::{Closing, PARALLEL, Pair, lies};
 use super::patch::Patch;
@@ -44,7 +44,9 @@ pub(super) struct Search<'a, F> {
     pub(super) pair: Pair<'a>,
     /// What is halved: the sheets, or splines of them lifted.
     shapes: [&'a Sheet; 2],
-    /// Where these may be.
+    /// Beyond this box nothing is wanted.
+    clip: Bounds,
+    /// Where these may be: lifted, they are elsewhere than in the box.
     around: Bounds,
     /// Sheets nearer than curves are computed to are not apart: they touch.
     slack: f64,
@@ -98,6 +100,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             around: lifted.map_or(clip, |lifted| lifted.around(&clip)),
             slack: pair.tolerances.curve + lifted.map_or(0.0, |lifted| lifted.slack()),
             pair,
+            clip,
             branches,
             found,
             matters,
@@ -151,7 +154,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
         self.halvings += 1;
-        if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH {
+        if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH || self.is_outside(a) {
             return;
         }
         let (size_a, size_b) = (a.patch.bounds.extent(), b.patch.bounds.extent());
@@ -167,7 +170,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                     return;
                 }
                 Verdict::Doubtful if is_small => {
-                    self.doubt(a);
+                    if self.is_beside_an_end(a, b) {
+                        self.certain += 1;
+                    } else {
+                        self.doubt(a);
+                    }
                     return;
                 }
                 Verdict::Doubtful | Verdict::Open => {}
@@ -186,9 +193,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             if is_near {
                 self.doubt(a);
             } else {
-                let [u, v] = a.patch.middle();
-                let point = self.pair.sheets[0].point(u, v);
-                self.undecided += usize::from((self.matters)(point));
+                self.undecided += usize::from(self.counts(a));
             }
             return;
         }
@@ -323,10 +328,66 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             .is_some_and(|chords| chords.has_only(&self.branches[branch], t, lengths))
     }
 
+    /// Whether a known curve ends on a border so near to two of the smallest patches that these are not apart yet. Where some
+    /// parameter grows along all chords there is no room for another one.
+    fn is_beside_an_end(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+        if Chords::new(a, b, BESIDE).is_none() {
+            return false;
+        }
+        let [u, v] = a.patch.middle();
+        let point = a.patch.point(u, v);
+        let size = a.patch.bounds.extent() + b.patch.bounds.extent();
+        let most = NEAR * self.pair.tolerances.scale;
+        let is_near = |branch: &Branch, which: usize| {
+            let end = branch.end(which);
+            let is_root = matches!(branch.ends[which], End::AtRoot(_));
+            // A border that the curve leaves at a small angle stays as near to the other sheet for as long.
+            let reach = || (6.0 * self.slack / (end.sine * self.leaving(end))).min(most);
+            is_root && end.point().distance(point) < size + reach()
+        };
+        let mut branches = self.branches.iter();
+        branches.any(|branch| is_near(branch, 0) || is_near(branch, 1))
+    }
+
+    /// The smallest sine of the angle between a curve and a border on which it ends.
+    fn leaving(&self, end: &Node) -> f64 {
+        let q = end.parameters();
+        let across = (0..4).filter_map(|k| {
+            let (sheet, axis) = (self.pair.sheets[k / 2], k % 2);
+            let left = (q[k] - sheet.low(axis)).min(sheet.high(axis) - q[k]);
+            if left > BORDER * sheet.length(axis) {
+                return None;
+            }
+            let (_, u, v) = sheet.first_jet(q[k - axis], q[k - axis + 1]);
+            let (own, along) = if axis == 0 { (u, v) } else { (v, u) };
+            Some(end.first[3 + k].abs() * own.cross(along.normalize_or_zero()).length())
+        });
+        across.fold(1.0, f64::min)
+    }
+
     /// Counts a pair of the smallest patches of which not all is known.
     fn doubt(&mut self, a: &Facet<'_>) {
+        self.uncertain += usize::from(self.counts(a));
+    }
+
+    /// Whether it matters what the sheets do at one of the smallest patches of the first.
+    fn counts(&self, a: &Facet<'_>) -> bool {
         let [u, v] = a.patch.middle();
-        self.uncertain += usize::from((self.matters)(a.patch.point(u, v)));
+        // Where the sheet is: what is halved may be lifted.
+        (self.matters)(self.pair.sheets[0].point(u, v))
+    }
+
+    /// Whether a part of the first sheet that was lifted into the box is not there itself.
+    fn is_outside(&self, a: &Facet<'_>) -> bool {
+        if self.pair.lifted.is_none() || a.lean() >= STRAIGHT {
+            return false;
+        }
+        let [u, v] = [a.patch.u, a.patch.v];
+        let corners = [[u[0], v[0]], [u[0], v[1]], [u[1], v[0]], [u[1], v[1]]];
+        let own = Bounds::of(corners.map(|[u, v]| self.pair.sheets[0].point(u, v)));
+        // It is nearly flat, and so is what was lifted.
+        let bulge = own.extent().max(a.patch.bounds.extent());
+        !own.grown(bulge).meets(&self.clip)
     }
 
     /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
