@@ -182,7 +182,8 @@ fn a_line_beside_an_arc_is_an_arc_with_the_radius_less_or_more() {
         for place in beside.places() {
             let away = place.point - DVec2::new(3.0, -2.0);
             assert!((away.length() - radius).abs() < 1e-9);
-            assert!((place.curvature * radius - 1.0).abs() < 1e-4);
+            // The stretch, of which a curvature is a fraction, magnifies what the line's own is off by.
+            assert!((place.curvature * radius - 1.0).abs() < 1e-6 * (100.0 / radius).max(1.0));
             assert!(place.tangent().dot(away).abs() < 1e-6 * radius);
         }
     }

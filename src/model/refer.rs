@@ -17,14 +17,13 @@ enum Unknown {
     Host(usize, usize),
 }
 
-impl Checker<'_> {
-    /// The feature of which a text names a part (`lower-3`), with the part's name behind the feature's.
-    #[allow(clippy::unused_self, reason = "selectors must not import this file")]
-    pub(crate) fn part_of(&self, text: &str, family: &Family<'_>) -> Option<(usize, String)> {
-        let named = named(text, family).ok()?;
-        (!named.part.is_empty()).then_some((named.feature, named.part))
-    }
+/// The feature of which a text names a part (`lower-3`), with the part's name behind the feature's.
+pub(crate) fn part_of(text: &str, family: &Family<'_>) -> Option<(usize, String)> {
+    let named = named(text, family).ok()?;
+    (!named.part.is_empty()).then_some((named.feature, named.part))
+}
 
+impl Checker<'_> {
     /// What a text names: a feature by its id, an instance (`valley-2`, `belt-1/valley-2`) or a part of one (`lower-3`). What is
     /// wrong is said of `what` (as "the trajectory of feature …").
     pub(crate) fn refer(
@@ -199,9 +198,10 @@ fn instance(step: &str, family: &Family<'_>) -> Result<(usize, Option<usize>), U
         kind.is_many() && matches!(kind.copies, Copies::One(_) | Copies::OneEach(_))
     });
     let known = usize::try_from(number).ok().filter(|number| {
+        // Parts may be counted from 0; which ones there are the kind knows.
         number.to_string() == digits
-            && *number > 0
-            && (parts || (family.count(feature) > 1 && *number <= family.count(feature)))
+            && (parts
+                || (family.count(feature) > 1 && (1..=family.count(feature)).contains(number)))
     });
     match known {
         Some(number) => Ok((feature, Some(number))),
