@@ -108,12 +108,13 @@ impl Draws<'_> {
         &mut self,
         center: Option<&[Quantity; 2]>,
         domain: &Domain,
+        parameter: &str,
     ) -> Result<DVec2, Reason> {
         if let Some(center) = center {
-            return self.point(center, "trajectory.center");
+            return self.point(center, parameter);
         }
-        let x = self.uniform(domain.x[0], domain.x[1], "trajectory.center.x")?;
-        let y = self.uniform(domain.y[0], domain.y[1], "trajectory.center.y")?;
+        let x = self.uniform(domain.x[0], domain.x[1], &format!("{parameter}.x"))?;
+        let y = self.uniform(domain.y[0], domain.y[1], &format!("{parameter}.y"))?;
         Ok(DVec2::new(x, y))
     }
 

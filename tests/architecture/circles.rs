@@ -17,7 +17,6 @@ const KNOWN: &[&[&str]] = &[
         "model/values/surface/draw.rs",
         "model/values/surface/mod.rs",
     ],
-    &["model/draft.rs", "model/values/selector.rs"],
     &["model/expression.rs", "model/formula.rs"],
     &[
         "model/kinds/clinoforms.rs",

@@ -8,10 +8,11 @@ use serde::Deserialize;
 use super::keys::Keys;
 use super::kind::Kind;
 use super::made::{Bound, Frame, Made, Part, Site, TakesFrom, VolumeName};
+use super::unit::CLINOFORMS;
 use crate::features::body::Body;
 use crate::features::free_clinoform::{Basinward, FreeClinoformDesign, FreeClinoformError, Room};
 use crate::model::draws::{Draws, Reason, diagonal};
-use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
+use crate::model::nature::{Copies, Nature};
 use crate::model::read::{Any, Field};
 use crate::model::references::Reference;
 use crate::model::tree::quoted;
@@ -19,8 +20,6 @@ use crate::model::values::limits::{ANY, AZIMUTH, Limits, POSITIVE};
 use crate::model::values::quantity::Quantity;
 use crate::model::values::trajectory::{self, TrajectorySpec};
 
-/// The most clinoforms of one set.
-const MOST_SHEETS: u64 = 500;
 /// Gradient at crest and toe if left out, as a fraction of the straight line's.
 const TOE: f64 = 0.3;
 /// The steepest gradient if left out, in those of the straight line.
@@ -133,24 +132,9 @@ impl Kind for ClinoformSpec {
     const NATURE: Nature = Nature {
         name: "clinoform",
         copies: Copies::One("a set of clinoforms, which has `sheets`,"),
-        within: Within::Unit {
-            remedy: "clinoforms divide the unit of a horizon: name a feature of kind = \"horizon\"",
-        },
-        children: Children::None {
-            what: "a set of clinoforms",
-            instead: "the horizon of its unit",
-        },
-        taking: Taking::ByKind {
-            how: "clinoforms divide their parent and remove nothing",
-            remedy: "leave it out",
-        },
-        volumes: Volumes::Many {
-            most: MOST_SHEETS,
-            one: "clinothem",
-        },
-        is_base: false,
         placed_by: "set its `trajectory` or `crest`",
         apart: "change `crest`, `length`, `spacing` or `toe` of {name} a little, or its trajectory",
+        ..CLINOFORMS
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
@@ -171,9 +155,11 @@ impl Kind for ClinoformSpec {
             .need(file.trajectory, "trajectory", example)
             .and_then(|(node, Any)| keys.checker.trajectory(node, keys.family));
         let basinward = keys.basinward(file.basinward);
-        let sheets = keys.number_of_sheets(file.sheets);
+        let sheets = keys
+            .number_of_sheets(file.sheets, |_| "leave it out for one")
+            .map(|sheets| sheets.unwrap_or(1));
         let spacing = keys.optional_quantity(file.spacing, "spacing", POSITIVE);
-        if let (Some(2..), Ok(None)) = (sheets, &spacing) {
+        if let (Ok(2..), Ok(None)) = (&sheets, &spacing) {
             let draft = keys.draft;
             let example = "spacing = 150";
             let reader = &keys.checker.reader;
@@ -193,7 +179,7 @@ impl Kind for ClinoformSpec {
             toe: toe.ok()?.unwrap_or(Quantity::Constant(TOE)),
             trajectory: trajectory?,
             basinward: basinward?,
-            sheets: sheets?,
+            sheets: sheets.ok()?,
             spacing: spacing.ok()?,
             azimuth_deg: azimuth.ok()?,
             climb_deg: climb.ok()?.unwrap_or(Quantity::Constant(0.0)),
@@ -217,12 +203,11 @@ impl Kind for ClinoformSpec {
         let unit = [range(base)?.0.max(low.z), range(top)?.1.min(high.z)];
         if !(unit[1] > unit[0]) {
             return Ok(Made {
-                parts: Vec::new(),
-                frame: Frame::None,
                 decisions: vec![
                     "has no clinoforms: its unit is nowhere in the domain, since its top is too low"
                         .to_owned(),
                 ],
+                ..Made::of(Vec::new())
             });
         }
         let room = Room { low, high, unit };
@@ -262,11 +247,7 @@ impl Kind for ClinoformSpec {
             part.drawn = drawn.by_ref().take(end - start).collect();
             start = end;
         }
-        Ok(Made {
-            parts,
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(parts))
     }
 
     fn more_facies(&self) -> Vec<usize> {
@@ -279,9 +260,7 @@ impl Kind for ClinoformSpec {
 
     /// What `2` is: what lies below the first sheet is the parent's.
     fn volume_name(&self, rest: &str) -> Option<VolumeName> {
-        let number = rest.parse::<usize>().ok()?;
-        let is_one = number.to_string() == rest && (1..=self.sheets).contains(&number);
-        is_one.then_some(VolumeName::Volume)
+        VolumeName::numbered(rest, self.sheets)
     }
 }
 
@@ -355,22 +334,5 @@ impl Keys<'_, '_> {
                 None
             }
         }
-    }
-
-    fn number_of_sheets(&self, field: Option<Field<u64>>) -> Option<usize> {
-        let Some(field) = field else { return Some(1) };
-        let (node, sheets) = field.good()?;
-        if !(1..=MOST_SHEETS).contains(&sheets) {
-            self.checker.reader.wrong(
-                node,
-                format!(
-                    "the number of sheets of {} is {sheets}; it must lie between 1 and {MOST_SHEETS}",
-                    self.draft.name
-                ),
-                "leave it out for one",
-            );
-            return None;
-        }
-        usize::try_from(sheets).ok()
     }
 }

@@ -11,11 +11,12 @@ use serde::Deserialize;
 use super::keys::Keys;
 use super::kind::Kind;
 use super::made::{Bound, Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
+use super::unit::CLINOFORMS;
 use crate::features::body::Body;
 use crate::features::side::{Borders, Ends, Side};
 use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
-use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
+use crate::model::nature::{Copies, Gives, Nature};
 use crate::model::read::{Any, Field};
 use crate::model::tree::quoted;
 use crate::model::values::limits::{AZIMUTH, CONCAVE, FRACTION, POSITIVE};
@@ -25,8 +26,6 @@ pub use belts::Belt;
 use belts::BeltFile;
 use draw::{Drawn, DrawnSet};
 
-/// The most clinoforms of one set: a spacing that is far too small is found out before the memory is full.
-const MOST_SHEETS: u64 = 500;
 /// Semi-extents of a shoreline along dip and strike, if left out.
 const SHORELINE: [f64; 2] = [3000.0, 6000.0];
 const EXPONENT: f64 = 2.0;
@@ -123,24 +122,9 @@ impl Kind for ClinoformsSpec {
     const NATURE: Nature = Nature {
         name: "clinoforms",
         copies: Copies::One("a set of clinoforms in its unit"),
-        within: Within::Unit {
-            remedy: "clinoforms divide the unit of a horizon: name a feature of kind = \"horizon\"",
-        },
-        children: Children::None {
-            what: "a set of clinoforms",
-            instead: "the horizon of its unit",
-        },
-        taking: Taking::ByKind {
-            how: "clinoforms divide their parent and remove nothing",
-            remedy: "leave it out",
-        },
-        volumes: Volumes::Many {
-            most: MOST_SHEETS,
-            one: "clinothem",
-        },
-        is_base: false,
         placed_by: "set its `first`",
         apart: "change `first`, `spacing`, `length` or `toe` of the clinoforms a little, or the surface that they run along",
+        ..CLINOFORMS
     };
 
     const GIVES: Gives = Gives::Sheets;
@@ -175,7 +159,12 @@ impl Kind for ClinoformsSpec {
         let shoreline = keys.shoreline(file.shoreline);
         let exponent = keys.optional_quantity(file.exponent, "exponent", CONCAVE);
         let toe = keys.optional_quantity(file.toe, "toe", FRACTION);
-        let sheets = keys.sheets(file.sheets);
+        let sheets = keys.number_of_sheets(file.sheets, |sheets| match sheets {
+            0 => "leave it out for as many as have their shoreline in the domain",
+            _ => {
+                "widen the spacing, or leave it out for as many as have their shoreline in the domain"
+            }
+        });
         let belts = keys.belts(file.belts);
         let interfingering = keys.interfingering(file.interfingering);
         let turns = keys.turns(file.turns);
@@ -235,9 +224,8 @@ impl Kind for ClinoformsSpec {
             format!("has no clinoforms: its unit is nowhere in the domain, since its top is too low; {place}")
         });
         Ok(Made {
-            parts,
-            frame: Frame::None,
             decisions: decisions.into_iter().collect(),
+            ..Made::of(parts)
         })
     }
 
@@ -355,29 +343,6 @@ impl Keys<'_, '_> {
             return Err(Reported);
         }
         Ok(Some(read))
-    }
-
-    fn sheets(&self, field: Option<Field<u64>>) -> Result<Option<usize>, Reported> {
-        let Some(field) = field else { return Ok(None) };
-        let (node, sheets) = field.good().ok_or(Reported)?;
-        if (1..=MOST_SHEETS).contains(&sheets) {
-            return usize::try_from(sheets).map(Some).map_err(|_| Reported);
-        }
-        let remedy = match sheets {
-            0 => "leave it out for as many as have their shoreline in the domain",
-            _ => {
-                "widen the spacing, or leave it out for as many as have their shoreline in the domain"
-            }
-        };
-        self.checker.reader.wrong(
-            node,
-            format!(
-                "the number of sheets of {} is {sheets}; it must lie between 1 and {MOST_SHEETS}",
-                self.draft.name
-            ),
-            remedy,
-        );
-        Err(Reported)
     }
 
     fn interfingering(&self, field: Option<Field<String>>) -> Option<Interfingering> {

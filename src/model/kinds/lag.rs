@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Part, Site, TakesFrom};
+use super::made::{Made, Part, Site, TakesFrom};
 use crate::features::body::Body;
 use crate::features::extrusion::ExtrusionError;
 use crate::features::lag::{CLEARANCE, LagDesign, LagError, THICKEST, THINNEST};
@@ -134,14 +134,10 @@ impl Kind for LagSpec {
             _ => ("impossible section", error.to_string()),
         };
         let lag = design.build(reach).map_err(reason)?;
-        Ok(Made {
-            parts: vec![Part {
-                from: TakesFrom::ParentItself,
-                drawn: draws.taken(),
-                ..Part::of(Body::Shell(lag))
-            }],
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(vec![Part {
+            from: TakesFrom::ParentItself,
+            drawn: draws.taken(),
+            ..Part::of(Body::Shell(lag))
+        }]))
     }
 }

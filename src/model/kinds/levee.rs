@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
+use super::made::{Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::levee::{LeveeDesign, LeveeError, MOST_TAPER, parts};
 use crate::features::profile::Profile as Along;
@@ -189,9 +189,8 @@ impl Kind for LeveeSpec {
             }
         }
         Ok(Made {
-            parts: made,
-            frame: Frame::None,
             decisions,
+            ..Made::of(made)
         })
     }
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Outcome, Part, Site};
+use super::made::{Made, Outcome, Part, Site};
 use crate::features::body::Body;
 use crate::features::lobe::{LobeDesign, SUNK};
 use crate::features::reach::Reach;
@@ -157,15 +157,11 @@ impl Kind for LobeSpec {
             .build()
             .and_then(|lobe| lobe.shell())
             .map_err(|error| ("impossible lobe", error.to_string()))?;
-        Ok(Made {
-            parts: vec![Part {
-                drawn: draws.taken(),
-                level: Some(base),
-                ..Part::of(Body::Shell(shell))
-            }],
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(vec![Part {
+            drawn: draws.taken(),
+            level: Some(base),
+            ..Part::of(Body::Shell(shell))
+        }]))
     }
 
     fn refers(&self) -> Vec<&Reference> {

@@ -197,18 +197,12 @@ impl Kind for LobesSpec {
                 ..Part::of(Body::Shell(body))
             });
         }
-        Ok(Made {
-            parts,
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(parts))
     }
 
     /// What `7` is.
     fn volume_name(&self, rest: &str) -> Option<VolumeName> {
-        let number = rest.parse::<usize>().ok()?;
-        let is_one = (1..=self.count).contains(&number) && number.to_string() == rest;
-        is_one.then_some(VolumeName::Volume)
+        VolumeName::numbered(rest, self.count)
     }
 
     /// Lobes thin out to nothing at their rims.

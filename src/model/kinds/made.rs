@@ -194,11 +194,16 @@ pub(crate) enum TakesFrom {
 impl Made {
     /// An instance that is one body, and takes what the feature's rules admit.
     pub(crate) fn body(body: Body, drawn: Vec<(String, f64)>) -> Self {
+        Self::of(vec![Part {
+            drawn,
+            ..Part::of(body)
+        }])
+    }
+
+    /// An instance by whose parts no children are placed.
+    pub(crate) fn of(parts: Vec<Part>) -> Self {
         Self {
-            parts: vec![Part {
-                drawn,
-                ..Part::of(body)
-            }],
+            parts,
             frame: Frame::None,
             decisions: Vec::new(),
         }
@@ -261,6 +266,15 @@ pub(crate) enum VolumeName {
     Volume,
     /// What the others of the same whole are divided from.
     First,
+}
+
+impl VolumeName {
+    /// What a number is of volumes that are counted from 1.
+    pub(crate) fn numbered(rest: &str, last: usize) -> Option<Self> {
+        let number = rest.parse::<usize>().ok()?;
+        let is_one = (1..=last).contains(&number) && number.to_string() == rest;
+        is_one.then_some(Self::Volume)
+    }
 }
 
 /// What became of an instance.

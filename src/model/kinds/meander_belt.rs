@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::channel::ChannelSpec;
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
+use super::made::{Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::channel::{ChannelDesign, Origin};
 use crate::features::meander::SineGenerated;
@@ -228,18 +228,12 @@ impl Kind for MeanderBeltSpec {
                 ..Part::of(Body::Trough(trough))
             });
         }
-        Ok(Made {
-            parts,
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(parts))
     }
 
     /// What `3` is.
     fn volume_name(&self, rest: &str) -> Option<VolumeName> {
-        let number = rest.parse::<usize>().ok()?;
-        let is_position = (1..=self.steps).contains(&number) && number.to_string() == rest;
-        is_position.then_some(VolumeName::Volume)
+        VolumeName::numbered(rest, self.steps)
     }
 
     fn meshing(made: &[Outcome<'_>]) -> Option<String> {
@@ -268,13 +262,7 @@ impl MeanderBeltSpec {
         let azimuth = draws
             .quantity(&self.azimuth_deg, "azimuth_deg")?
             .to_radians();
-        let center = if let Some(center) = &self.center {
-            draws.point(center, "center")?
-        } else {
-            let x = draws.uniform(domain.x[0], domain.x[1], "center.x")?;
-            let y = draws.uniform(domain.y[0], domain.y[1], "center.y")?;
-            glam::DVec2::new(x, y)
-        };
+        let center = draws.center(self.center.as_ref(), domain, "center")?;
         let phase = match &self.phase {
             Some(phase) => draws.quantity(phase, "phase")?,
             None => draws.uniform(0.0, 1.0, "phase")?,

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Part, Site, TakesFrom};
+use super::made::{Made, Part, Site, TakesFrom};
 use crate::features::bends::{Bend, bends};
 use crate::features::body::Body;
 use crate::features::extrusion::ExtrusionError;
@@ -153,15 +153,11 @@ impl Kind for PlugSpec {
             _ => ("impossible section", error.to_string()),
         };
         let plug = design.build(reach).map_err(reason)?;
-        Ok(Made {
-            parts: vec![Part {
-                from: TakesFrom::Parent,
-                drawn: draws.taken(),
-                ..Part::of(Body::Shell(plug))
-            }],
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(vec![Part {
+            from: TakesFrom::Parent,
+            drawn: draws.taken(),
+            ..Part::of(Body::Shell(plug))
+        }]))
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Part, Site, TakesFrom, VolumeName};
+use super::made::{Made, Part, Site, TakesFrom, VolumeName};
 use crate::features::bends::bends;
 use crate::features::body::Body;
 use crate::features::point_bars::{PointBar, PointBarError, PointBarsDesign, Slope};
@@ -263,11 +263,7 @@ impl Kind for PointBarsSpec {
                 self.add(at + 1, bar, &drawn, &mut parts);
             }
         }
-        Ok(Made {
-            parts,
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(parts))
     }
 
     fn more_facies(&self) -> Vec<usize> {

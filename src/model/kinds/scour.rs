@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Frame, Made, Part, Site};
+use super::made::{Made, Part, Site};
 use crate::features::body::Body;
 use crate::features::extrusion::ExtrusionError;
 use crate::features::profile::Profile;
@@ -230,15 +230,11 @@ impl Kind for ScourSpec {
         let shell = design
             .build(&trajectory)
             .map_err(|error| (reason(&error), error.to_string()))?;
-        Ok(Made {
-            parts: vec![Part {
-                drawn: draws.taken(),
-                level: Some(top - PROUD * deepest),
-                ..Part::of(Body::Shell(shell))
-            }],
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(vec![Part {
+            drawn: draws.taken(),
+            level: Some(top - PROUD * deepest),
+            ..Part::of(Body::Shell(shell))
+        }]))
     }
 
     fn refers(&self) -> Vec<&Reference> {

@@ -217,9 +217,7 @@ impl Kind for TrendSpec {
 
     /// What `3` is.
     fn volume_name(&self, rest: &str) -> Option<VolumeName> {
-        let number = rest.parse::<usize>().ok()?;
-        let is_layer = (1..=self.steps + 1).contains(&number) && number.to_string() == rest;
-        is_layer.then_some(VolumeName::Volume)
+        VolumeName::numbered(rest, self.steps + 1)
     }
 }
 
@@ -246,11 +244,7 @@ impl TrendSpec {
             };
             self.layer(at + 1, Body::Shell(tube), from, &drawn)
         });
-        Ok(Made {
-            parts: parts.collect(),
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(parts.collect()))
     }
 
     /// Layers of a unit: the first one from the unit itself, each higher one from that below it.
@@ -279,11 +273,7 @@ impl TrendSpec {
             let body = Body::Side(Arc::new(side));
             parts.push(self.layer(at + 2, body, TakesFrom::Part(at), &drawn));
         }
-        Ok(Made {
-            parts,
-            frame: Frame::None,
-            decisions: Vec::new(),
-        })
+        Ok(Made::of(parts))
     }
 
     /// One layer. Its place in the whole stands with what was drawn for it: properties that follow the trend are asked for there.

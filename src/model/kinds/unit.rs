@@ -2,10 +2,38 @@
 
 use super::keys::Keys;
 use super::made::Bound;
-use crate::model::nature::Nature;
+use crate::model::checker::Reported;
+use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::Field;
 use crate::model::suggest;
 use crate::model::tree::quoted;
+
+/// The most clinoforms of one set.
+pub(super) const MOST_SHEETS: u64 = 500;
+
+/// What all sets of clinoforms are; names, copies and places are each kind's own.
+pub(super) const CLINOFORMS: Nature = Nature {
+    name: "",
+    copies: Copies::One("a set of clinoforms"),
+    within: Within::Unit {
+        remedy: "clinoforms divide the unit of a horizon: name a feature of kind = \"horizon\"",
+    },
+    children: Children::None {
+        what: "a set of clinoforms",
+        instead: "the horizon of its unit",
+    },
+    taking: Taking::ByKind {
+        how: "clinoforms divide their parent and remove nothing",
+        remedy: "leave it out",
+    },
+    volumes: Volumes::Many {
+        most: MOST_SHEETS,
+        one: "clinothem",
+    },
+    is_base: false,
+    placed_by: "",
+    apart: "",
+};
 
 /// What a set of sheets divides.
 #[derive(Clone, Copy)]
@@ -24,6 +52,28 @@ impl Keys<'_, '_> {
         };
         let &parent = self.family.index.get(name)?;
         self.family.is_horizon(parent).then_some(Unit::Of(parent))
+    }
+
+    /// How many sheets a set has, if that is said; with what to do about a number that is too small or too large.
+    pub(crate) fn number_of_sheets(
+        &self,
+        field: Option<Field<u64>>,
+        remedy: impl Fn(u64) -> &'static str,
+    ) -> Result<Option<usize>, Reported> {
+        let Some(field) = field else { return Ok(None) };
+        let (node, sheets) = field.good().ok_or(Reported)?;
+        if (1..=MOST_SHEETS).contains(&sheets) {
+            return usize::try_from(sheets).map(Some).map_err(|_| Reported);
+        }
+        self.checker.reader.wrong(
+            node,
+            format!(
+                "the number of sheets of {} is {sheets}; it must lie between 1 and {MOST_SHEETS}",
+                self.draft.name
+            ),
+            remedy(sheets),
+        );
+        Err(Reported)
     }
 
     /// What bounds the unit above.

@@ -1,6 +1,6 @@
 //! A clinoform set drawn: its sheets, and the boundaries of its facies belts.
 
-use super::{Belt, ClinoformsSpec, Interfingering, MOST_SHEETS, TOE};
+use super::{Belt, ClinoformsSpec, Interfingering, TOE};
 use crate::features::boundary::{BoundaryDesign, FaciesBoundary, Wander};
 use crate::features::clinoform::{Clinoform, ClinoformDesign};
 use crate::features::frame::{ClinoformFrame, ClinoformUnit, FrameError, Shoreline};
@@ -8,6 +8,7 @@ use crate::features::horizon::Horizon;
 use crate::features::side::Side;
 use crate::model::domain::Domain;
 use crate::model::draws::{Draws, Reason};
+use crate::model::kinds::unit::MOST_SHEETS;
 
 /// The largest exponent with which sheets may meet their base tangentially.
 const FLATTEST: f64 = 2.0;

@@ -38,7 +38,7 @@ pub(crate) fn trajectory(
             let azimuth = draws
                 .quantity(azimuth_deg, "trajectory.azimuth_deg")?
                 .to_radians();
-            let center = draws.center(center.as_ref(), domain)?;
+            let center = draws.center(center.as_ref(), domain, "trajectory.center")?;
             let extent = extent(length.as_ref(), domain, center, azimuth, overshoot, draws)?;
             let axis = azimuth_vector(azimuth);
             Trajectory::line(center + axis * extent[0], center + axis * extent[1])
@@ -64,7 +64,7 @@ pub(crate) fn trajectory(
             let azimuth = draws
                 .quantity(azimuth_deg, "trajectory.azimuth_deg")?
                 .to_radians();
-            let center = draws.center(center.as_ref(), domain)?;
+            let center = draws.center(center.as_ref(), domain, "trajectory.center")?;
             let phase = match phase {
                 Some(phase) => draws.quantity(phase, "trajectory.phase")?,
                 None => draws.uniform(0.0, 1.0, "trajectory.phase")?,
