@@ -8,9 +8,8 @@
 
 mod assembled;
 
-use assembled::{Built, from_text, without};
+use assembled::{Built, built, from_text, without};
 use clinothem::assembly::Engine;
-use clinothem::model::selection::Selection;
 use glam::DVec3;
 
 /// A straight channel through a block, with a lag.
@@ -38,10 +37,6 @@ kind = "lag"
 parent = "channel"
 facies = "gravel"
 "#;
-
-fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
-    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
-}
 
 /// Area of the default section as a fraction of width times depth.
 const SECTION: f64 = 0.764_563;

@@ -10,7 +10,7 @@ mod assembled;
 
 use std::f64::consts::PI;
 
-use assembled::{Built, from_text};
+use assembled::{Built, built, from_text};
 use clinothem::assembly::Engine;
 use clinothem::model::owner::Owners;
 use clinothem::model::realisation::Realisation;
@@ -38,10 +38,6 @@ azimuth_deg = 60
 center = [250, 200]
 base = -12
 "#;
-
-fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
-    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
-}
 
 /// The height of the template over its thickness, by trying: the thickness is the greatest value of (1 − X²)(1 − λX).
 fn height(skew: f64) -> f64 {

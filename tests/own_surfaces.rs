@@ -10,7 +10,7 @@ mod assembled;
 
 use std::f64::consts::PI;
 
-use assembled::{Built, from_text};
+use assembled::{Built, built, from_text};
 use clinothem::assembly::Engine;
 use clinothem::model::selection::Selection;
 
@@ -58,10 +58,6 @@ points = [
   [[300, 0, -25], [300, 200, -20]],
 ]
 "#;
-
-fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
-    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
-}
 
 #[test]
 fn between_clinoforms_lies_spacing_times_height_for_each_metre_of_strike() {

@@ -8,7 +8,7 @@
 
 mod assembled;
 
-use assembled::{Built, from_text, without};
+use assembled::{Built, built, from_text, without};
 use clinothem::assembly::Engine;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
@@ -50,10 +50,6 @@ const MEANDER: &str = "feature.channel.trajectory={ kind = \"sine-generated\", a
 
 /// Area of the default section as a fraction of width times depth.
 const SECTION: f64 = 0.764_563;
-
-fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
-    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
-}
 
 #[test]
 fn a_plugs_section_is_its_fractions_of_the_channels() {

@@ -10,7 +10,7 @@ mod assembled;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use assembled::{Built, from_text};
+use assembled::{Built, built, from_text};
 use clinothem::assembly::Engine;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
@@ -67,10 +67,6 @@ kind = "plug"
 parent = "channel"
 facies = "silt"
 "#;
-
-fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
-    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
-}
 
 #[test]
 fn a_straight_channel_has_its_sections_area_times_its_length() {

@@ -19,6 +19,11 @@ use clinothem::model::selection::Selection;
 #[allow(unused_imports, reason = "not every test program needs all of it")]
 pub use checked::*;
 
+/// The whole of a model, as this engine makes it.
+pub fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {
+    Built::new(from_text(text, overrides), &Selection::default(), engine).unwrap()
+}
+
 /// A model with its solids.
 pub struct Built {
     pub model: Model,
