@@ -4,7 +4,7 @@ from collections import Counter
 
 import cadquery as cq
 import pytest
-from conftest import ROUGH_SUM
+from conftest import FINE, FINE_SUM, fine_volume
 from OCP.Interface import Interface_Static
 
 
@@ -42,12 +42,12 @@ def test_every_solid_is_valid(parts):
 def test_volumes_agree_with_the_report(build, parts):
     found = {name: [] for name in build.volumes}
     for name, node in parts:
-        found[build.volume_of(name).name] += [(s.Volume(), s.Area()) for s in solids(node)]
+        found[build.volume_of(name).name] += [(fine_volume(s), s.Area()) for s in solids(node)]
     for name, sizes in found.items():
         for (size, area), told in zip(sorted(sizes), sorted(build.volumes[name].solids), strict=True):
-            assert build.same_volume(size, told, build.rough, area), (name, size, told)
+            assert build.same_volume(size, told, FINE, area), (name, size, told)
     total = sum(size for sizes in found.values() for size, _ in sizes)
-    assert total == pytest.approx(build.domain["volume_m3"], rel=ROUGH_SUM)
+    assert total == pytest.approx(build.domain["volume_m3"], rel=FINE_SUM)
 
 
 def test_asked_for_millimetres_the_model_is_a_thousand_times_as_long(build):

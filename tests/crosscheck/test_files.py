@@ -50,13 +50,13 @@ def test_the_file_declares_metres_and_nothing_else_and_holds_no_clock(build, fla
     units = set(re.findall(r"LENGTH_UNIT\s*\(\s*\)\s*NAMED_UNIT\s*\(\s*\*\s*\)\s*SI_UNIT\s*\(([^)]*)\)", text))
     assert units == {"$,.METRE."}
     assert len(re.findall(r"\bLENGTH_UNIT\b", text)) == len(re.findall(r"SI_UNIT\s*\(\s*\$\s*,\s*\.METRE\.\s*\)", text))
-    assert re.findall(r"FILE_NAME\s*\('[^']*',\s*'([^']*)'", text) == ["1970-01-01T00:00:00"]
+    assert re.findall(r"FILE_NAME\s*\('(?:[^']|'')*',\s*'([^']*)'", text) == ["1970-01-01T00:00:00"]
 
 
 def test_every_volume_with_a_solid_is_a_product_by_its_name(build):
     products = re.findall(r"PRODUCT\s*\(\s*'([^']*)'\s*,\s*'([^']*)'", build.step.read_text(encoding="ascii"))
     names = [name for _, name in products]
-    assert [names.count(name) for name in build.volumes] == [1] * len(build.volumes)
+    assert [names.count(volume.shown) for volume in build.volumes.values()] == [1] * len(build.volumes)
     assert len({number for number, _ in products}) == len(products), "two products with one identifier"
 
 
