@@ -8,8 +8,10 @@ use super::keys::Keys;
 use super::kind::Kind;
 use super::made::{Made, Outcome, Part, Site};
 use crate::features::body::Body;
+use crate::features::fabric::Fabric;
 use crate::features::lobe::{LobeDesign, SUNK};
 use crate::features::reach::Reach;
+use crate::features::trajectory::azimuth_vector;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -160,6 +162,7 @@ impl Kind for LobeSpec {
         Ok(Made::of(vec![Part {
             drawn: draws.taken(),
             level: Some(base),
+            fabric: Some(Fabric::along(azimuth_vector(design.azimuth))),
             ..Part::of(Body::Shell(shell))
         }]))
     }
