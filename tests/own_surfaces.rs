@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 
 use assembled::{Built, built, from_text};
 use clinothem::assembly::Engine;
+use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 
 /// Four clinoforms of 20 m in a unit as high, along a crest that swings; basinward is east.
@@ -159,6 +160,80 @@ fn above_a_bezier_sheet_lies_what_its_control_points_say() {
     let ends = [-25.0, -23.0, -22.5];
     let mean = (0.5 * ends[0] + ends[1] + 0.5 * ends[2]) / 2.0;
     assert!((straight + mean * plan).abs() < 1e-9 * volume, "{straight}");
+}
+
+#[test]
+fn a_horizon_follows_its_control_net_and_has_a_unit_above_it() {
+    // The same net, to a millimetre; a bed of 3 m lies on it, and a set of clinoforms in that.
+    let text = SHEET
+        .replace("kind = \"sheet\"", "kind = \"horizon\"")
+        .replace(
+            "[feature.nets]",
+            "[feature.surface]\ntolerance = 0.001\n[feature.surface.net]",
+        );
+    let bed = "[[feature]]\nid = \"bed\"\nkind = \"horizon\"\nfacies = \"mud\"\nsurface = { above = \"sheet\", thickness = 3 }\n";
+    let found = built(&format!("{text}{bed}"), &[], Engine::Partition);
+    let plan = 300.0 * 200.0;
+    let control = [-20.0, -30.0, -10.0, -36.0, -25.0, -20.0];
+    let mean = control.iter().sum::<f64>() / 6.0;
+    assert!((found.size("sheet") - 3.0 * plan).abs() < 1e-6 * plan);
+    assert!((found.size("bed") - (-mean - 3.0) * plan).abs() < 0.001 * plan);
+    let told = found.realisation.decisions.iter();
+    assert!(
+        told.clone()
+            .any(|one| one == "sheet follows its control net within 0.001 m"),
+        "{:?}",
+        found.realisation.decisions
+    );
+}
+
+#[test]
+fn weights_and_knots_of_a_horizons_net_count() {
+    // An arc of a circle over the chord, from 20 m below the top to 20 m below the top: its middle weight is the cosine of half its angle. A knot
+    // inserted across changes nothing.
+    let angle = 0.2_f64.atan();
+    let radius = 150.0 / angle.sin();
+    let net = format!(
+        "feature.sheet.surface={{ tolerance = 0.001, net = {{ degree = [2, 1], \
+         points = [[[0, 0, -20], [0, 90, -20], [0, 200, -20]], [[150, 0, 10], [150, 90, 10], [150, 200, 10]], [[300, 0, -20], [300, 90, -20], [300, 200, -20]]], \
+         weights = [[1, 1, 1], [{0}, {0}, {0}], [1, 1, 1]], knots = [[], [0, 0, 0.3, 1, 1]] }} }}",
+        angle.cos()
+    );
+    let text = SHEET.replace("kind = \"sheet\"", "kind = \"horizon\"");
+    let text = &text[..text.find("[feature.nets]").unwrap()];
+    let found = built(text, &[&net], Engine::Partition);
+    let segment = radius * radius * (angle - angle.sin() * angle.cos());
+    let expected = 200.0 * (20.0 * 300.0 - segment);
+    let off = found.size("sheet") - expected;
+    assert!(off.abs() < 0.001 * 300.0 * 200.0, "{off}");
+    // Without the weights it is a parabola, which is higher: its area above the chord is two thirds of height times length.
+    let parabola = 200.0 * (20.0 * 300.0 - 2.0 / 3.0 * 15.0 * 300.0);
+    assert!((expected - parabola).abs() > 0.05 * 300.0 * 200.0);
+}
+
+#[test]
+fn a_net_with_kinks_is_no_horizon_and_one_that_ends_neither() {
+    let text = SHEET.replace("kind = \"sheet\"", "kind = \"horizon\"");
+    let text = &text[..text.find("[feature.nets]").unwrap()];
+    for (points, words) in [
+        (
+            "[[[-10, -10, -20], [-10, 210, -30]], [[150, -10, -10], [150, 210, -36]], [[310, -10, -25], [310, 210, -20]]]",
+            ["degree = 1, ", "feature of the kind sheet"],
+        ),
+        (
+            "[[[0, 0, -20], [0, 150, -30]], [[300, 0, -10], [300, 150, -36]]]",
+            ["", "ends inside of the domain"],
+        ),
+    ] {
+        let net = format!(
+            "feature.sheet.surface={{ net = {{ {}points = {points} }} }}",
+            words[0]
+        );
+        let model = from_text(text, &[&net]);
+        let error = Realisation::new(&model, &Selection::default()).unwrap_err();
+        let said = error.to_string();
+        assert!(said.contains("sheet") && said.contains(words[1]), "{said}");
+    }
 }
 
 #[test]
