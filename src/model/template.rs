@@ -57,6 +57,7 @@ pub const TEMPLATES: &[Template] = templates! {
     "nodules": "cemented nodules in and beside channel sands",
     "lobes": "turbidite lobes that fill each other's hollows",
     "lobes" / "lobe": "one lobe on a level floor, and a mouth bar cut into it",
+    "mouth-bars": "two distributaries, each with a mouth bar where it ends",
     "fig06b-scour": "two scours with pits and wings, one along a bend",
     "fig06b-scour" / "scour-field": "twelve scours of random sizes, places and directions",
     "fig09-warp": "a scour down a clinoform, and concretions at a depth below one",

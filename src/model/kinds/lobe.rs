@@ -188,8 +188,8 @@ impl Kind for LobeSpec {
 struct MouthBar {
     /// As wide, thick and long as the channel says.
     design: LobeDesign,
-    /// The channel's end in plan.
-    end: DVec2,
+    /// Where it begins in plan.
+    start: DVec2,
     /// The elevation of the channel's top there (m).
     top: f64,
 }
@@ -200,7 +200,7 @@ fn mouth_bar(reach: &Reach) -> MouthBar {
     let top = station.middle.y;
     MouthBar {
         design: LobeDesign::mouth_bar(&station.place, station.width, station.depth, top),
-        end: station.place.point,
+        start: LobeDesign::mouth(&station.place, station.width),
         top,
     }
 }
@@ -218,7 +218,7 @@ impl MouthBar {
             Some(_) => site.elevation(base, "base", [0.0; 2], draws)?,
             None => self.top - shape.thickness,
         };
-        Ok((shape.with_apex(self.end), base))
+        Ok((shape.with_apex(self.start), base))
     }
 }
 
