@@ -81,6 +81,69 @@ fn between_clinoforms_lies_spacing_times_height_for_each_metre_of_strike() {
 }
 
 #[test]
+fn clinoforms_with_level_ends_touch_the_top_and_the_base_of_their_unit() {
+    // The same volumes as of others, along a bent crest and a straight one; all of a sheet lies between its crest and its toe.
+    let straight =
+        "feature.delta.trajectory={ kind = \"line\", from = [150, -10], to = [150, 410] }";
+    for more in [&[][..], &[straight]] {
+        let overrides = [&["feature.delta.toe=0"], more].concat();
+        let built = built(DELTA, &overrides, Engine::Partition);
+        assert_eq!(built.assembly.remedy, "none");
+        let expected = 110.0 * 20.0 * 400.0;
+        for number in 1..=3 {
+            let volume = built.size(&format!("delta-{number}"));
+            assert!((volume - expected).abs() < 1e-6 * expected, "{volume}");
+        }
+        assert_eq!(built.solids(), 5);
+    }
+    let overrides = ["feature.delta.toe=0", straight];
+    let built = built(DELTA, &overrides, Engine::Partition);
+    let landward = built.size("background");
+    let expected = (150.0 + 125.0) * 20.0 * 400.0;
+    assert!((landward - expected).abs() < 1e-9 * expected, "{landward}");
+    // (0, H), (ℓ, H), (L − ℓ, 0), (L, 0) with ℓ = L − H/tan δ; steepest halfway down.
+    let (length, height) = (250.0, 20.0);
+    let run = length - height / 8.0_f64.to_radians().tan();
+    let bezier = |u: f64, p: [f64; 4]| {
+        let v = 1.0 - u;
+        v * v * v * p[0] + 3.0 * v * v * u * p[1] + 3.0 * v * u * u * p[2] + u * u * u * p[3]
+    };
+    let first = built.volume("delta-1");
+    for u in [0.1, 0.25, 0.5, 0.75, 0.9] {
+        let x = 150.0 + bezier(u, [0.0, run, length - run, length]);
+        let z = bezier(u, [0.0, 0.0, -height, -height]);
+        for (off, is_in) in [(0.01, true), (-0.01, false)] {
+            let at = glam::DVec3::new(x, 200.0, z + off);
+            let owner = built.owners.at(at);
+            assert_eq!(owner == Some(first), is_in, "{u} {off}");
+        }
+    }
+}
+
+#[test]
+fn level_ends_are_refused_where_a_unit_has_no_level_bounds() {
+    for (more, words) in [
+        ("feature.delta.height=12", "the crest is at -8 m, the toe at -20 m"),
+        (
+            "feature.delta.climb_deg=0.5",
+            "the unit reaches from -20 m to 0 m",
+        ),
+        (
+            "domain.base={ dipping = { through = [500, 200, -18], dip_deg = 0.1, azimuth_deg = 90 } }",
+            "its base or its top is not level",
+        ),
+    ] {
+        let model = from_text(DELTA, &["feature.delta.toe=0", more]);
+        let error = Realisation::new(&model, &Selection::default()).unwrap_err();
+        let said = error.to_string();
+        assert!(
+            said.contains(words) && said.contains("such as 0.3"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn the_general_fuse_makes_the_same_clinoforms_and_sheets() {
     let two = DELTA.replace("sheets = 4", "sheets = 2");
     for (text, names) in [(&*two, &["delta-1", "delta-2"][..]), (SHEET, &["sheet"])] {
