@@ -8,7 +8,7 @@
 
 mod assembled;
 
-use assembled::{Built, from_text, without};
+use assembled::{Built, MEANDER, WIDER, from_text, without};
 use clinothem::assembly::Engine;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
@@ -110,11 +110,7 @@ fn layers_that_sag_hold_all_of_a_meander_but_for_its_lag() {
         "[[feature]]\nid = \"layer\"",
         "[[feature]]\nid = \"lag\"\nkind = \"lag\"\nparent = \"channel\"\nfacies = \"gravel\"\nthickness_fraction = 0.3\n[[feature]]\nid = \"layer\"",
     );
-    let overrides = [
-        "feature.channel.trajectory={ kind = \"sine-generated\", amplitude = 30, wavelength = 300, azimuth_deg = 90, center = [150, 50], phase = 0.1 }",
-        "domain.y=[-50, 150]",
-        "feature.layer.sag_fraction=0.6",
-    ];
+    let overrides = [MEANDER, WIDER, "feature.layer.sag_fraction=0.6"];
     let whole = Built::new(
         from_text(&text, &overrides),
         &without(&["layer", "lag"]),
