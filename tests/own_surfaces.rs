@@ -123,7 +123,10 @@ fn clinoforms_with_level_ends_touch_the_top_and_the_base_of_their_unit() {
 #[test]
 fn level_ends_are_refused_where_a_unit_has_no_level_bounds() {
     for (more, words) in [
-        ("feature.delta.height=12", "the crest is at -8 m, the toe at -20 m"),
+        (
+            "feature.delta.height=12",
+            "the crest is at -8 m, the toe at -20 m",
+        ),
         (
             "feature.delta.climb_deg=0.5",
             "the unit reaches from -20 m to 0 m",
@@ -257,7 +260,7 @@ fn weights_and_knots_of_a_horizons_net_count() {
     let angle = 0.2_f64.atan();
     let radius = 150.0 / angle.sin();
     let net = format!(
-        "feature.sheet.surface={{ tolerance = 0.001, net = {{ degree = [2, 1], \
+        "feature.sheet.surface={{ tolerance = 0.002, net = {{ degree = [2, 1], \
          points = [[[0, 0, -20], [0, 90, -20], [0, 200, -20]], [[150, 0, 10], [150, 90, 10], [150, 200, 10]], [[300, 0, -20], [300, 90, -20], [300, 200, -20]]], \
          weights = [[1, 1, 1], [{0}, {0}, {0}], [1, 1, 1]], knots = [[], [0, 0, 0.3, 1, 1]] }} }}",
         angle.cos()
@@ -268,7 +271,7 @@ fn weights_and_knots_of_a_horizons_net_count() {
     let segment = radius * radius * (angle - angle.sin() * angle.cos());
     let expected = 200.0 * (20.0 * 300.0 - segment);
     let off = found.size("sheet") - expected;
-    assert!(off.abs() < 0.001 * 300.0 * 200.0, "{off}");
+    assert!(off.abs() < 0.002 * 300.0 * 200.0, "{off}");
     // Without the weights it is a parabola, which is higher: its area above the chord is two thirds of height times length.
     let parabola = 200.0 * (20.0 * 300.0 - 2.0 / 3.0 * 15.0 * 300.0);
     assert!((expected - parabola).abs() > 0.05 * 300.0 * 200.0);
