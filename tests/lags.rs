@@ -6,6 +6,7 @@
     reason = "a test fails by panicking"
 )]
 
+#[macro_use]
 mod assembled;
 
 use assembled::{Built, built, from_text, without};
@@ -13,30 +14,14 @@ use clinothem::assembly::Engine;
 use glam::DVec3;
 
 /// A straight channel through a block, with a lag.
-const STRAIGHT: &str = r#"
-name = "Straight"
-[domain]
-x = [0, 300]
-y = [0, 100]
-z = [-20, 0]
-facies = "mud"
-[facies.mud]
-[facies.sand]
-[facies.gravel]
-[[feature]]
-id = "channel"
-kind = "channel"
-facies = "sand"
-width = 50
-depth = 4.4
-top = -6
-trajectory = { kind = "line", from = [-50, 50], to = [350, 50] }
-[[feature]]
+const STRAIGHT: &str = straight!(
+    r#"[[feature]]
 id = "lag"
 kind = "lag"
 parent = "channel"
 facies = "gravel"
-"#;
+"#
+);
 
 /// Area of the default section as a fraction of width times depth.
 const SECTION: f64 = 0.764_563;

@@ -10,8 +10,9 @@ mod assembled;
 
 use std::f64::consts::PI;
 
-use assembled::{Built, built, from_text};
+use assembled::{Built, built, from_text, without};
 use clinothem::assembly::Engine;
+use clinothem::features::body::Body;
 use clinothem::model::owner::Owners;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
@@ -98,6 +99,100 @@ fn by_its_apex_or_its_middle_a_lobe_is_the_same_and_a_wall_along_its_axis_halves
         );
         assert!(cut.size("lobe") <= whole * (1.0 + 1e-6));
     }
+}
+
+/// A channel that ends in the block, wider and shallower there, and a bar at its mouth.
+const MOUTH: &str = r#"
+name = "Mouth"
+[domain]
+x = [0, 1000]
+y = [0, 600]
+z = [-20, 0]
+facies = "mud"
+[facies.mud]
+[facies.sand]
+[[feature]]
+id = "bar"
+kind = "lobe"
+facies = "sand"
+mouth_of = "trunk"
+[[feature]]
+id = "trunk"
+kind = "channel"
+facies = "sand"
+width = [[0, 40], [1, 60]]
+depth = [[0, 4], [1, 3]]
+top = -5
+trajectory = { kind = "points", points = [[-50, 150], [150, 320], [400, 300]] }
+"#;
+
+#[test]
+fn a_mouth_bar_is_as_its_channel_says_and_begins_in_its_end() {
+    // 5 W long, 3.2 W wide and D thick, with the width and the depth at the end; the channel left out says so, too.
+    let model = from_text(MOUTH, &[]);
+    let alone = Built::new(model, &without(&["trunk"]), Engine::Partition).unwrap();
+    let expected = volume(300.0, 192.0, 3.0, 0.5, 0.3);
+    assert!((alone.size("bar") / expected - 1.0).abs() < 1e-8);
+    // Its axis goes on in the channel's: from a tenth of the width inside, and 300 m from there. The bar's base is at −8.06 m.
+    let both = built(MOUTH, &[], Engine::Partition);
+    let realised = &both.realisation;
+    let way = realised.instances.iter().find_map(|one| match &one.body {
+        Body::Trough(trough) => Some(trough.base().clone()),
+        _ => None,
+    });
+    let base = way.unwrap();
+    let (across, along) = (base.knots_u().domain(), base.knots_v().domain());
+    let rims = [across.0, across.1].map(|u| base.point(u, along.1));
+    let end = 0.5 * (rims[0] + rims[1]).truncate();
+    let right = (rims[1] - rims[0]).truncate().normalize();
+    let ahead = glam::DVec2::new(-right.y, right.x);
+    assert!((end - glam::DVec2::new(400.0, 300.0)).length() < 1e-6);
+    assert!(ahead.x > 0.5, "downstream: {ahead}");
+    let bar = alone.volume("bar");
+    for (way, height, is_bar) in [
+        (-6.1, 0.02, false),
+        (-5.0, 0.02, true),
+        (1.0, 0.1, true),
+        (100.0, 2.5, true),
+        (100.0, 3.1, false),
+        (293.0, 0.01, true),
+        (294.5, 0.01, false),
+    ] {
+        let at = (end + way * ahead).extend(-8.06 + height);
+        assert_eq!(alone.owners.at(at) == Some(bar), is_bar, "{way} {height}");
+    }
+    // A third of it across on each side where it is widest.
+    let widest = |x: f64| 96.0 * (1.0 - x * x).sqrt() * (1.0 + 0.5 * x);
+    let at = |x: f64, y: f64| {
+        let place = end + (144.0 + 150.0 * x) * ahead + y * right;
+        alone.owners.at(place.extend(-8.06 + 0.001)) == Some(bar)
+    };
+    for x in [-0.5, 0.0, 0.366, 0.8] {
+        for sign in [-1.0, 1.0] {
+            assert!(
+                at(x, sign * (widest(x) - 1.0)) && !at(x, sign * (widest(x) + 1.0)),
+                "{x}"
+            );
+        }
+    }
+    // The younger channel takes what of it lies in its end, and nothing has to be moved for that.
+    assert_eq!(both.assembly.remedy, "none");
+    let left = both.size("bar");
+    assert!(
+        left < alone.size("bar") && left > 0.9 * alone.size("bar"),
+        "{left}"
+    );
+    assert!(both.contact("bar", "trunk") > 0.0);
+    // What is given is kept.
+    let given = [
+        "feature.bar.length=200",
+        "feature.bar.thickness=2",
+        "feature.bar.taper=0",
+    ];
+    let model = from_text(MOUTH, &given);
+    let other = Built::new(model, &without(&["trunk"]), Engine::Partition).unwrap();
+    let expected = volume(200.0, 192.0, 2.0, 0.0, 0.3);
+    assert!((other.size("bar") / expected - 1.0).abs() < 1e-8);
 }
 
 #[test]

@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 
 use assembled::{Built, built, from_text};
 use clinothem::assembly::Engine;
+use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 
 /// Four clinoforms of 20 m in a unit as high, along a crest that swings; basinward is east.
@@ -77,6 +78,72 @@ fn between_clinoforms_lies_spacing_times_height_for_each_metre_of_strike() {
     let landward = built.size("background");
     let expected = (150.0 + 125.0) * 20.0 * 400.0;
     assert!((landward - expected).abs() < 1e-9 * expected, "{landward}");
+}
+
+#[test]
+fn clinoforms_with_level_ends_touch_the_top_and_the_base_of_their_unit() {
+    // The same volumes as of others, along a bent crest and a straight one; all of a sheet lies between its crest and its toe.
+    let straight =
+        "feature.delta.trajectory={ kind = \"line\", from = [150, -10], to = [150, 410] }";
+    for more in [&[][..], &[straight]] {
+        let overrides = [&["feature.delta.toe=0"], more].concat();
+        let built = built(DELTA, &overrides, Engine::Partition);
+        assert_eq!(built.assembly.remedy, "none");
+        let expected = 110.0 * 20.0 * 400.0;
+        for number in 1..=3 {
+            let volume = built.size(&format!("delta-{number}"));
+            assert!((volume - expected).abs() < 1e-6 * expected, "{volume}");
+        }
+        assert_eq!(built.solids(), 5);
+    }
+    let overrides = ["feature.delta.toe=0", straight];
+    let built = built(DELTA, &overrides, Engine::Partition);
+    let landward = built.size("background");
+    let expected = (150.0 + 125.0) * 20.0 * 400.0;
+    assert!((landward - expected).abs() < 1e-9 * expected, "{landward}");
+    // (0, H), (ℓ, H), (L − ℓ, 0), (L, 0) with ℓ = L − H/tan δ; steepest halfway down.
+    let (length, height) = (250.0, 20.0);
+    let run = length - height / 8.0_f64.to_radians().tan();
+    let bezier = |u: f64, p: [f64; 4]| {
+        let v = 1.0 - u;
+        v * v * v * p[0] + 3.0 * v * v * u * p[1] + 3.0 * v * u * u * p[2] + u * u * u * p[3]
+    };
+    let first = built.volume("delta-1");
+    for u in [0.1, 0.25, 0.5, 0.75, 0.9] {
+        let x = 150.0 + bezier(u, [0.0, run, length - run, length]);
+        let z = bezier(u, [0.0, 0.0, -height, -height]);
+        for (off, is_in) in [(0.01, true), (-0.01, false)] {
+            let at = glam::DVec3::new(x, 200.0, z + off);
+            let owner = built.owners.at(at);
+            assert_eq!(owner == Some(first), is_in, "{u} {off}");
+        }
+    }
+}
+
+#[test]
+fn level_ends_are_refused_where_a_unit_has_no_level_bounds() {
+    for (more, words) in [
+        (
+            "feature.delta.height=12",
+            "the crest is at -8 m, the toe at -20 m",
+        ),
+        (
+            "feature.delta.climb_deg=0.5",
+            "the unit reaches from -20 m to 0 m",
+        ),
+        (
+            "domain.base={ dipping = { through = [500, 200, -18], dip_deg = 0.1, azimuth_deg = 90 } }",
+            "its base or its top is not level",
+        ),
+    ] {
+        let model = from_text(DELTA, &["feature.delta.toe=0", more]);
+        let error = Realisation::new(&model, &Selection::default()).unwrap_err();
+        let said = error.to_string();
+        assert!(
+            said.contains(words) && said.contains("such as 0.3"),
+            "{said}"
+        );
+    }
 }
 
 #[test]
@@ -159,6 +226,80 @@ fn above_a_bezier_sheet_lies_what_its_control_points_say() {
     let ends = [-25.0, -23.0, -22.5];
     let mean = (0.5 * ends[0] + ends[1] + 0.5 * ends[2]) / 2.0;
     assert!((straight + mean * plan).abs() < 1e-9 * volume, "{straight}");
+}
+
+#[test]
+fn a_horizon_follows_its_control_net_and_has_a_unit_above_it() {
+    // The same net, to a millimetre; a bed of 3 m lies on it, and a set of clinoforms in that.
+    let text = SHEET
+        .replace("kind = \"sheet\"", "kind = \"horizon\"")
+        .replace(
+            "[feature.nets]",
+            "[feature.surface]\ntolerance = 0.001\n[feature.surface.net]",
+        );
+    let bed = "[[feature]]\nid = \"bed\"\nkind = \"horizon\"\nfacies = \"mud\"\nsurface = { above = \"sheet\", thickness = 3 }\n";
+    let found = built(&format!("{text}{bed}"), &[], Engine::Partition);
+    let plan = 300.0 * 200.0;
+    let control = [-20.0, -30.0, -10.0, -36.0, -25.0, -20.0];
+    let mean = control.iter().sum::<f64>() / 6.0;
+    assert!((found.size("sheet") - 3.0 * plan).abs() < 1e-6 * plan);
+    assert!((found.size("bed") - (-mean - 3.0) * plan).abs() < 0.001 * plan);
+    let told = found.realisation.decisions.iter();
+    assert!(
+        told.clone()
+            .any(|one| one == "sheet follows its control net within 0.001 m"),
+        "{:?}",
+        found.realisation.decisions
+    );
+}
+
+#[test]
+fn weights_and_knots_of_a_horizons_net_count() {
+    // An arc of a circle over the chord, from 20 m below the top to 20 m below the top: its middle weight is the cosine of half its angle. A knot
+    // inserted across changes nothing.
+    let angle = 0.2_f64.atan();
+    let radius = 150.0 / angle.sin();
+    let net = format!(
+        "feature.sheet.surface={{ tolerance = 0.002, net = {{ degree = [2, 1], \
+         points = [[[0, 0, -20], [0, 90, -20], [0, 200, -20]], [[150, 0, 10], [150, 90, 10], [150, 200, 10]], [[300, 0, -20], [300, 90, -20], [300, 200, -20]]], \
+         weights = [[1, 1, 1], [{0}, {0}, {0}], [1, 1, 1]], knots = [[], [0, 0, 0.3, 1, 1]] }} }}",
+        angle.cos()
+    );
+    let text = SHEET.replace("kind = \"sheet\"", "kind = \"horizon\"");
+    let text = &text[..text.find("[feature.nets]").unwrap()];
+    let found = built(text, &[&net], Engine::Partition);
+    let segment = radius * radius * (angle - angle.sin() * angle.cos());
+    let expected = 200.0 * (20.0 * 300.0 - segment);
+    let off = found.size("sheet") - expected;
+    assert!(off.abs() < 0.002 * 300.0 * 200.0, "{off}");
+    // Without the weights it is a parabola, which is higher: its area above the chord is two thirds of height times length.
+    let parabola = 200.0 * (20.0 * 300.0 - 2.0 / 3.0 * 15.0 * 300.0);
+    assert!((expected - parabola).abs() > 0.05 * 300.0 * 200.0);
+}
+
+#[test]
+fn a_net_with_kinks_is_no_horizon_and_one_that_ends_neither() {
+    let text = SHEET.replace("kind = \"sheet\"", "kind = \"horizon\"");
+    let text = &text[..text.find("[feature.nets]").unwrap()];
+    for (points, words) in [
+        (
+            "[[[-10, -10, -20], [-10, 210, -30]], [[150, -10, -10], [150, 210, -36]], [[310, -10, -25], [310, 210, -20]]]",
+            ["degree = 1, ", "feature of the kind sheet"],
+        ),
+        (
+            "[[[0, 0, -20], [0, 150, -30]], [[300, 0, -10], [300, 150, -36]]]",
+            ["", "ends inside of the domain"],
+        ),
+    ] {
+        let net = format!(
+            "feature.sheet.surface={{ net = {{ {}points = {points} }} }}",
+            words[0]
+        );
+        let model = from_text(text, &[&net]);
+        let error = Realisation::new(&model, &Selection::default()).unwrap_err();
+        let said = error.to_string();
+        assert!(said.contains("sheet") && said.contains(words[1]), "{said}");
+    }
 }
 
 #[test]

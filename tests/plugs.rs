@@ -6,6 +6,7 @@
     reason = "a test fails by panicking"
 )]
 
+#[macro_use]
 mod assembled;
 
 use assembled::{Built, built, from_text, without};
@@ -14,26 +15,8 @@ use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 
 /// A straight channel through a block, with a lag and a plug.
-const STRAIGHT: &str = r#"
-name = "Straight"
-[domain]
-x = [0, 300]
-y = [0, 100]
-z = [-20, 0]
-facies = "silt"
-[facies.silt]
-[facies.mud]
-[facies.sand]
-[facies.gravel]
-[[feature]]
-id = "channel"
-kind = "channel"
-facies = "sand"
-width = 50
-depth = 4.4
-top = -6
-trajectory = { kind = "line", from = [-50, 50], to = [350, 50] }
-[[feature]]
+const STRAIGHT: &str = straight!(
+    r#"[[feature]]
 id = "lag"
 kind = "lag"
 parent = "channel"
@@ -43,7 +26,8 @@ id = "plug"
 kind = "plug"
 parent = "channel"
 facies = "mud"
-"#;
+"#
+);
 
 /// A meander with five apices in the block.
 const MEANDER: &str = "feature.channel.trajectory={ kind = \"sine-generated\", amplitude = 60, wavelength = 300, azimuth_deg = 90, center = [150, 50], phase = 0 }";

@@ -332,6 +332,192 @@ plunge_deg = 20
     );
 }
 
+/// A lobe, a scour and a bent scour, a nodule and a channel on a plane, each conforming to it or not.
+const BODIES: &str = r#"
+[[feature]]
+id = "floor"
+kind = "horizon"
+facies = "mud"
+surface = { dipping = { through = [1000, 500, -30], dip_deg = 3, azimuth_deg = 60 } }
+[[feature]]
+id = "lobe"
+kind = "lobe"
+parent = "floor"
+facies = "sand"
+length = 300
+width = 200
+thickness = 4
+azimuth_deg = 110
+center = [500, 500]
+[[feature]]
+id = "scour"
+kind = "scour"
+facies = "sand"
+width = [20, 40]
+depth = 2
+length = 200
+azimuth_deg = 20
+center = [1000, 300]
+top = -20
+[[feature]]
+id = "bent"
+kind = "scour"
+facies = "sand"
+width = 15
+depth = 1
+top = -20
+trajectory = { kind = "points", points = [[1200, 600], [1300, 640], [1500, 600]] }
+[[feature]]
+id = "nodule"
+kind = "ellipsoid"
+facies = "sand"
+semi_axes = [30, 20, 3]
+azimuth_deg = 40
+center = [1500, 300, -20]
+[[feature]]
+id = "channel"
+kind = "channel"
+facies = "sand"
+width = 30
+depth = 3
+top = -20
+trajectory = { kind = "line", from = [300, 100], to = [1700, 200] }
+"#;
+
+/// Directions in the plane of `BODIES`' floor above one in plan, across it in the plane, and the plane's normal.
+fn on_the_floor(azimuth_deg: f64) -> [DVec3; 3] {
+    let [_, _, normal] = dipping(3.0_f64.to_radians(), 60.0);
+    let azimuth = azimuth_deg.to_radians();
+    let plan = DVec3::new(azimuth.sin(), azimuth.cos(), 0.0);
+    let dip = (plan - DVec3::Z * normal.dot(plan) / normal.z).normalize();
+    [dip, dip.cross(normal), normal]
+}
+
+const VALUES: [f64; 3] = [500.0, 200.0, 10.0];
+
+#[test]
+fn lobes_and_scours_lie_along_their_own_way() {
+    let found = realise(&format!("{MODEL}{BODIES}"), &[LAYERS]);
+    assert_tensor(
+        rock(&found, "floor/lobe"),
+        dipping(0.0, 110.0),
+        VALUES,
+        1e-12,
+    );
+    assert_tensor(rock(&found, "scour"), dipping(0.0, 20.0), VALUES, 1e-12);
+    // From its first to its last point.
+    let azimuth_deg = 90.0_f64;
+    assert_tensor(
+        rock(&found, "bent"),
+        dipping(0.0, azimuth_deg),
+        VALUES,
+        1e-12,
+    );
+}
+
+#[test]
+fn what_conforms_to_a_plane_lies_in_it() {
+    let conform = ["lobe", "scour", "bent", "nodule", "channel"]
+        .map(|id| format!("feature.{id}.conform={{ to = \"floor\" }}"));
+    let conform: Vec<&str> = conform.iter().map(String::as_str).collect();
+    let found = realise(
+        &format!("{MODEL}{BODIES}"),
+        &[&[LAYERS], &conform[..]].concat(),
+    );
+    let channel = (1400.0_f64).atan2(100.0).to_degrees();
+    for (name, azimuth_deg) in [
+        ("floor/lobe", 110.0),
+        ("scour", 20.0),
+        ("bent", 90.0),
+        ("nodule", 40.0),
+        ("channel", channel),
+    ] {
+        assert_tensor(rock(&found, name), on_the_floor(azimuth_deg), VALUES, 1e-9);
+    }
+}
+
+#[test]
+fn a_lobe_on_a_slope_and_a_splay_lie_along_their_axes() {
+    // The first one of a stack on a plane; one that was laid on it lies less steeply or more.
+    let features = r#"
+[[feature]]
+id = "floor"
+kind = "horizon"
+facies = "mud"
+surface = { dipping = { through = [1000, 500, -30], dip_deg = 3, azimuth_deg = 60 } }
+[[feature]]
+id = "stack"
+kind = "lobes"
+parent = "floor"
+facies = "sand"
+count = 2
+length = 300
+width = 200
+thickness = 4
+azimuth_deg = 110
+region = { x = [400, 500], y = [400, 500] }
+[[feature]]
+id = "trunk"
+kind = "channel"
+facies = "gravel"
+width = 30
+depth = 3
+top = -5
+trajectory = { kind = "line", from = [-100, 800], to = [2100, 800] }
+[[feature]]
+id = "splay"
+kind = "splay"
+along = "trunk"
+facies = "sand"
+at = 0.5
+side = "right"
+angle_deg = 60
+"#;
+    let found = realise(&format!("{MODEL}{features}"), &[LAYERS]);
+    assert_tensor(
+        rock(&found, "floor/stack-1"),
+        on_the_floor(110.0),
+        VALUES,
+        1e-9,
+    );
+    // 60° to the right of east.
+    assert_tensor(
+        rock(&found, "trunk/splay"),
+        dipping(0.0, 150.0),
+        VALUES,
+        1e-12,
+    );
+}
+
+#[test]
+fn clinoforms_along_a_crest_and_sheets_lie_on_their_mean_plane() {
+    let features = r#"
+[[feature]]
+id = "delta"
+kind = "clinoform"
+facies = "sand"
+height = 40
+crest = -10
+length = 600
+sheets = 2
+spacing = 300
+trajectory = { kind = "line", from = [500, 1200], to = [500, -200] }
+basinward = "left"
+[[feature]]
+id = "fold"
+kind = "sheet"
+facies = "sand"
+nets = { degree = 1, points = [[[-100, -100, -20], [-100, 1100, -20]], [[2100, -100, -31], [2100, 1100, -31]]] }
+"#;
+    let found = realise(&format!("{MODEL}{features}"), &[LAYERS]);
+    // Straight ends go on with 0.3 of the mean gradient, 1 in 50: up from the crest to the domain's top 500 m landward, down from the toe to
+    // its base 500 m basinward. So the sheet falls by 60 m over 1600 m.
+    let dip = (60.0_f64 / 1600.0).atan();
+    assert_tensor(rock(&found, "delta-1"), dipping(dip, 90.0), VALUES, 2e-3);
+    let slope = (11.0_f64 / 2200.0).atan();
+    assert_tensor(rock(&found, "fold"), dipping(slope, 90.0), VALUES, 1e-9);
+}
+
 #[test]
 fn what_rises_from_base_to_top_has_the_value_of_the_middle_in_a_volume_that_is_no_layer() {
     let text = format!("{MODEL}{CHANNELS}");

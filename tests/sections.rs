@@ -6,45 +6,25 @@
     reason = "a test fails by panicking"
 )]
 
+#[macro_use]
 mod assembled;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use assembled::{Built, built, from_text};
+use assembled::{Built, MEANDER, WIDER, built, from_text};
 use clinothem::assembly::Engine;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
 use clinothem::nurbs::quadrature::{TEN, between};
 
 /// A straight channel through a block; its section is given by overrides.
-const STRAIGHT: &str = r#"
-name = "Straight"
-[domain]
-x = [0, 300]
-y = [0, 100]
-z = [-20, 0]
-facies = "silt"
-[facies.silt]
-[facies.sand]
-[facies.gravel]
-[[feature]]
-id = "channel"
-kind = "channel"
-facies = "sand"
-width = 50
-depth = 4.4
-top = -6
-trajectory = { kind = "line", from = [-150, 50], to = [450, 50] }
-"#;
+const STRAIGHT: &str = straight!("");
 
 const TRAPEZOID: &str = "feature.channel.section={ degree = 1, points = [[-0.5, 0], [-0.25, -1], [0.25, -1], [0.5, 0]] }";
 const PARABOLA: &str =
     "feature.channel.section={ degree = 2, points = [[-0.5, 0], [0, -2], [0.5, 0]] }";
 const HALF_ELLIPSE: &str = "feature.channel.section={ degree = 2, points = [[-0.5, 0], [-0.5, -1], [0, -1], [0.5, -1], [0.5, 0]], weights = [1, 0.7071067811865476, 1, 0.7071067811865476, 1], knots = [0, 0, 0, 0.5, 0.5, 1, 1, 1] }";
 const PIPE: &str = "feature.channel.section={ close = \"closed\", degree = 2, points = [[-0.5, -0.5], [-0.5, 0], [0, 0], [0.5, 0], [0.5, -0.5], [0.5, -1], [0, -1], [-0.5, -1], [-0.5, -0.5]], weights = [1, 0.7071067811865476, 1, 0.7071067811865476, 1, 0.7071067811865476, 1, 0.7071067811865476, 1], knots = [0, 0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1, 1, 1] }";
-/// A meander with its apices in the block.
-const MEANDER: &str = "feature.channel.trajectory={ kind = \"sine-generated\", amplitude = 30, wavelength = 300, azimuth_deg = 90, center = [150, 50], phase = 0.1 }";
-const WIDER: &str = "domain.y=[-50, 150]";
 /// Tops at the block's own.
 const FLUSH: &str = "feature.channel.top=0";
 
@@ -92,7 +72,7 @@ fn a_straight_channel_has_its_sections_area_times_its_length() {
 fn a_channel_along_bends_has_the_volume_of_pappus() {
     // Symmetrical sections count by the length of the way of their middle, here within the block's walls.
     let text = STRAIGHT.replace(
-        "trajectory = { kind = \"line\", from = [-150, 50], to = [450, 50] }",
+        "trajectory = { kind = \"line\", from = [-50, 50], to = [350, 50] }",
         "tolerance_fraction = 0.0001\ntrajectory = { kind = \"parametric\", x = \"150 * sin(t) + 150\", y = \"150 * cos(t) - 60\", range = [-1.6, 1.6] }",
     );
     // The whole of the channel above y = −60: a half circle.

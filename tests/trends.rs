@@ -8,7 +8,7 @@
 
 mod assembled;
 
-use assembled::{Built, from_text, without};
+use assembled::{Built, MEANDER, WIDER, from_text, without};
 use clinothem::assembly::Engine;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
@@ -73,12 +73,11 @@ fn built(text: &str, overrides: &[&str]) -> Built {
     Built::new(model, &Selection::default(), Engine::Partition).unwrap()
 }
 
-/// What a layer has of its place from base to top.
-fn fraction(built: &Built, name: &str) -> f64 {
-    let volume = built.volume(name);
-    let drawn = &built.realisation.instances[volume - 1].drawn;
-    let found = drawn.iter().find(|one| one.0 == "layer_fraction");
-    found.unwrap().1
+/// A property of a volume that is one number.
+fn scalar(built: &Built, name: &str, property: &str) -> f64 {
+    let rock = &built.realisation.properties[built.volume(name)];
+    rock.scalar(property)
+        .unwrap_or_else(|| panic!("{name} has no {property}"))
 }
 
 #[test]
@@ -86,12 +85,13 @@ fn the_mean_of_a_property_in_layers_of_a_parabola_tends_to_that_of_the_trend() {
     // Width at a height f above the thalweg is √f of the top's: the mean of f is ∫ f √f / ∫ √f = 3/5.
     for (steps, off) in [(1, 5.4e-3), (3, 1.4e-3), (7, 3.6e-4)] {
         let steps_are = format!("feature.layer.steps={steps}");
-        let built = built(CHANNEL, &[&steps_are]);
+        let rising = "facies.sand.porosity={ base = 0.1, top = 0.3 }";
+        let built = built(CHANNEL, &[&steps_are, rising]);
         let (mut mean, mut whole) = (0.0, 0.0);
         for layer in 1..=steps + 1 {
             let name = format!("channel/layer-{layer}");
             let size = built.size(&name);
-            mean += size * (0.1 + 0.2 * fraction(&built, &name));
+            mean += size * scalar(&built, &name, "porosity");
             whole += size;
             let to = |layer: i32| (f64::from(layer) / f64::from(steps + 1)).powf(1.5);
             let share = to(layer) - to(layer - 1);
@@ -110,11 +110,7 @@ fn layers_that_sag_hold_all_of_a_meander_but_for_its_lag() {
         "[[feature]]\nid = \"layer\"",
         "[[feature]]\nid = \"lag\"\nkind = \"lag\"\nparent = \"channel\"\nfacies = \"gravel\"\nthickness_fraction = 0.3\n[[feature]]\nid = \"layer\"",
     );
-    let overrides = [
-        "feature.channel.trajectory={ kind = \"sine-generated\", amplitude = 30, wavelength = 300, azimuth_deg = 90, center = [150, 50], phase = 0.1 }",
-        "domain.y=[-50, 150]",
-        "feature.layer.sag_fraction=0.6",
-    ];
+    let overrides = [MEANDER, WIDER, "feature.layer.sag_fraction=0.6"];
     let whole = Built::new(
         from_text(&text, &overrides),
         &without(&["layer", "lag"]),
@@ -133,6 +129,44 @@ fn layers_that_sag_hold_all_of_a_meander_but_for_its_lag() {
         .map(|layer| built.size(&format!("channel/layer-{layer}")))
         .sum();
     assert!(((layers + lag) / whole.size("channel") - 1.0).abs() < 1e-7);
+}
+
+#[test]
+fn what_is_drawn_for_the_ends_of_a_trend_is_the_same_in_all_layers() {
+    // Porosity by even steps, permeability by even factors; what is not of the trend is the same in all layers, too.
+    for (text, parent) in [(CHANNEL, "channel"), (UNIT, "unit")] {
+        let model = from_text(
+            text,
+            &[
+                "facies.sand.porosity={ base = { uniform = [0.1, 0.2] }, top = { uniform = [0.25, 0.35] } }",
+                "facies.sand.permeability={ base = { uniform = [1, 2] }, top = 1000 }",
+                "facies.sand.sw={ uniform = [0.2, 0.4] }",
+                "feature.layer.steps=3",
+            ],
+        );
+        let made = Realisation::new(&model, &Selection::default()).unwrap();
+        let rock = |layer: usize| {
+            let volume = made.volume(&format!("{parent}/layer-{layer}")).unwrap();
+            &made.properties[volume]
+        };
+        let [porosity, k, sw] = ["porosity", "permeability", "sw"].map(|property| {
+            [1, 2, 3, 4].map(|layer| rock(layer).get(property).unwrap().numbers()[0])
+        });
+        let drawn = &rock(1).drawn;
+        let of = |name: &str| drawn.iter().find(|one| one.0 == name).unwrap().1;
+        let (base, top) = (
+            of("properties.porosity.base"),
+            of("properties.porosity.top"),
+        );
+        let lowest = of("properties.permeability.base");
+        for (layer, part) in [0.125, 0.375, 0.625, 0.875].into_iter().enumerate() {
+            assert!((porosity[layer] - (base + (top - base) * part)).abs() < 1e-15);
+            let expected = lowest * (1000.0 / lowest).powf(part);
+            assert!((k[layer] / expected - 1.0).abs() < 1e-12, "{k:?}");
+            assert_eq!(sw[layer], sw[0]);
+            assert_eq!(&rock(layer + 1).drawn, drawn);
+        }
+    }
 }
 
 #[test]

@@ -293,6 +293,14 @@ fn described(surface: &HorizonSurface) -> String {
         HorizonSurface::Points { points, tolerance } => {
             format!("within {tolerance} m of {} points", points.len())
         }
+        HorizonSurface::Net { net, tolerance } => {
+            let rows = &net.net.points;
+            let columns = rows.first().map_or(0, Vec::len);
+            format!(
+                "within {tolerance} m of a net of {} × {columns} points",
+                rows.len()
+            )
+        }
         // Not of the domain's base or top.
         HorizonSurface::Above { .. } => "as thick above another horizon as given".to_owned(),
     }

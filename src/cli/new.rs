@@ -13,7 +13,8 @@ use crate::model::{TEMPLATES, Template};
 #[command(after_help = "Examples:
   clinothem new                          the templates
   clinothem new quickstart               write quickstart.toml
-  clinothem new channel-belt belt.toml   write belt.toml")]
+  clinothem new channel-belt belt.toml   write belt.toml
+  clinothem new strata/points            write points.toml")]
 pub(super) struct Args {
     /// The template's name.
     template: Option<String>,
@@ -26,21 +27,18 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let Some(name) = &args.template else {
-        let line = |one: &Template| format!("{:14} {}", one.name, one.about);
+        let widths = TEMPLATES.iter().map(|one| one.name.len());
+        let width = widths.max().unwrap_or(0);
+        let line = |one: &Template| format!("{:width$}  {}", one.name, one.about);
         let lines: Vec<String> = TEMPLATES.iter().map(line).collect();
         return print::out(&lines.join("\n"));
     };
-    let Some(template) = Template::find(name) else {
-        let names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
-        return Err(Failure::Wrong(format!(
-            "there is no template `{name}`; there are {}",
-            names.join(", ")
-        )));
-    };
+    let template = Template::find(name)
+        .map_err(|remedy| Failure::Wrong(format!("there is no template `{name}`; {remedy}")))?;
     let path = args
         .file
         .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{name}.toml")));
+        .unwrap_or_else(|| PathBuf::from(template.file_name()));
     if path.exists() && !args.force {
         return Err(Failure::Wrong(format!(
             "{} exists already; name another file, or add --force to replace it",

@@ -5,7 +5,7 @@
 //! it lies on, or of the *mean* direction of its channel. A sinuous channel loses anisotropy by that, which a tensor at each place
 //! would keep.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::body::Body;
 use super::ellipsoid::Ellipsoid;
@@ -66,6 +66,15 @@ impl Fabric {
         Self::of(dip, if normal.z < 0.0 { -normal } else { normal })
     }
 
+    /// The same of layers that were sheared upright by a slope (rise along x and y), as bodies are that conform to a surface.
+    #[must_use]
+    pub fn sheared(&self, slope: DVec2) -> Self {
+        let moved = |direction: DVec3| direction + slope.dot(direction.xy()) * DVec3::Z;
+        let dip = moved(self.dip);
+        let normal = moved(self.strike).cross(dip);
+        Self::of(dip.normalize(), normal.normalize())
+    }
+
     /// Of what lies on sheets that hang in a unit of the extent, or of what lies above a horizon; nothing of other bodies.
     pub fn of_body(body: &Body, unit: [Option<&Horizon>; 2], extent: &Extent) -> Option<Self> {
         match body {
@@ -77,46 +86,32 @@ impl Fabric {
 
     /// Of a horizon, over the plan of an extent.
     pub fn of_horizon(horizon: &Horizon, extent: &Extent) -> Self {
-        let (low, high) = (extent.low(), extent.high());
-        let size = high - low;
-        let mean = |at: &dyn Fn(f64) -> f64| {
-            let middles = (0..ACROSS).map(|i| (i as f64 + 0.5) / ACROSS as f64);
-            middles.map(at).sum::<f64>() / ACROSS as f64
-        };
-        // The mean of a slope over a rectangle is the rise from one side to the other.
-        let rise_x = mean(&|part| {
-            let y = low.y + part * size.y;
-            horizon.height(high.x, y) - horizon.height(low.x, y)
-        });
-        let rise_y = mean(&|part| {
-            let x = low.x + part * size.x;
-            horizon.height(x, high.y) - horizon.height(x, low.y)
-        });
-        let normal = DVec3::new(-rise_x / size.x, -rise_y / size.y, 1.0);
-        Self::of_plane(normal, DVec2::Y)
+        let plan = [extent.low().xy(), extent.high().xy()];
+        let slope = mean_slope(&|at| horizon.height(at.x, at.y), plan);
+        Self::of_plane((-slope).extend(1.0), DVec2::Y)
     }
 
     fn of_side(side: &Side, unit: [Option<&Horizon>; 2], extent: &Extent) -> Option<Self> {
+        let inside = |point: DVec3| {
+            let [base, top] = unit.map(|one| one.map(|one| one.height(point.x, point.y)));
+            let is_between =
+                base.is_none_or(|base| point.z >= base) && top.is_none_or(|top| point.z <= top);
+            is_between && extent.holds(point)
+        };
+        let normal = || -> DVec3 {
+            let sheets = side.sheets().iter();
+            sheets.map(|sheet| vector_area(sheet, &inside)).sum()
+        };
         match side.ends() {
             Ends::Hanging {
                 frame,
                 borders: Borders::Unit { .. },
-            } => {
-                let inside = |point: DVec3| {
-                    let [base, top] = unit.map(|one| one.map(|one| one.height(point.x, point.y)));
-                    let is_between = base.is_none_or(|base| point.z >= base)
-                        && top.is_none_or(|top| point.z <= top);
-                    is_between && extent.holds(point)
-                };
-                let level = frame.dip();
-                let normal: DVec3 = side
-                    .sheets()
-                    .iter()
-                    .map(|sheet| vector_area(sheet, &inside))
-                    .sum();
-                Some(Self::of_plane(normal, level))
-            }
-            Ends::Plan(_) | Ends::NoSheet | Ends::Closed(_) | Ends::Hanging { .. } => None,
+            } => Some(Self::of_plane(normal(), frame.dip())),
+            // Of no area where it is nowhere in its unit.
+            Ends::Closed(_) => Some(normal())
+                .filter(|normal| *normal != DVec3::ZERO)
+                .map(|normal| Self::of_plane(normal, DVec2::Y)),
+            Ends::Plan(_) | Ends::NoSheet | Ends::Hanging { .. } => None,
         }
     }
 
@@ -148,6 +143,25 @@ impl Fabric {
             [xz, yz, entry(2, 2)],
         ]
     }
+}
+
+/// The mean slope of heights over a rectangle of the plan: how far they rise along x and along y (m/m).
+pub fn mean_slope(height: &dyn Fn(DVec2) -> f64, [low, high]: [DVec2; 2]) -> DVec2 {
+    let size = high - low;
+    let mean = |at: &dyn Fn(f64) -> f64| {
+        let middles = (0..ACROSS).map(|i| (i as f64 + 0.5) / ACROSS as f64);
+        middles.map(at).sum::<f64>() / ACROSS as f64
+    };
+    // The mean of a slope over a rectangle is the rise from one side to the other.
+    let rise_x = mean(&|part| {
+        let y = low.y + part * size.y;
+        height(DVec2::new(high.x, y)) - height(DVec2::new(low.x, y))
+    });
+    let rise_y = mean(&|part| {
+        let x = low.x + part * size.x;
+        height(DVec2::new(x, high.y)) - height(DVec2::new(x, low.y))
+    });
+    DVec2::new(rise_x, rise_y) / size
 }
 
 /// The integral of the unit normal over what of a sheet lies inside: the normal of its mean plane, as long as that has area. It is

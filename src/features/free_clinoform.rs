@@ -7,6 +7,9 @@
 //! Where the crest runs aslant to the direction of stepping the topset is a little steeper across it than the slope's end; so the
 //! three are sheets of their own.
 //!
+//! With a toe of 0 both ends are level and would never leave the unit. So they must lie on its top and its base, level ones, exactly: the sheet
+//! ends there, touching them, and is divided halfway down, since each half touches one of them.
+//!
 //! A set steps by **translation** along one azimuth, not by offset curves: no bend is too tight for the next sheet, and what lies
 //! between two sheets a distance S apart has S·H of volume for each metre across that azimuth, however the crest bends (Cavalieri).
 //! All rows of control points are level, so the elevation of a sheet is exact; only its course is interpolated.
@@ -18,10 +21,10 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use super::extrusion::{ExtrusionError, Guides, Limits, PlacedSection, carry};
 use super::shell::ShellError;
 use super::side::Side;
-use super::sigmoid::{SigmoidError, sigmoid};
+use super::sigmoid::{SigmoidError, sigmoid, split};
 use super::swept::Swept;
 use super::trajectory::{Trajectory, azimuth_vector};
-use crate::nurbs::{ExtendError, KnotError, KnotVector, Surface, SurfaceError};
+use crate::nurbs::{ExtendError, KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
 /// How far a sheet goes on above its unit and below it, as a fraction of the unit's height.
 const BEYOND: f64 = 0.06;
@@ -41,6 +44,11 @@ const MOST_TURN: f64 = 0.258_819;
 /// A sigmoid whose inner control points are nearer to its ends than this fraction of its length is straight with tiny bent ends.
 const LEAST_RUN: f64 = 0.02;
 
+/// Where a sheet with level ends is divided, in u.
+const HALFWAY: f64 = 0.5;
+/// Level ends lie on a bound if they are this near to it, as a fraction of the height; then exactly.
+const SAME_LEVEL: f64 = 1e-6;
+
 /// Why numbers make no clinoform along a crest.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FreeClinoformError {
@@ -58,11 +66,19 @@ pub enum FreeClinoformError {
         /// The straight line's.
         mean: f64,
     },
-    /// The ends are level, so they leave the unit nowhere.
+    /// The ends are level, and do not lie on the bounds of the unit.
     #[error(
-        "with a toe of 0 the ends are level and never leave the unit: give a toe above 0, such as 0.3"
+        "with a toe of 0 the ends are level and never leave the unit, so they must lie on a level top and a level base of it: the crest is at \
+         {crest} m, the toe at {toe} m, {bounds}; leave `height`, `crest` and `climb_deg` out, or give a toe above 0, such as 0.3"
     )]
-    LevelEnds,
+    LevelEnds {
+        /// Elevation of the crest (m).
+        crest: f64,
+        /// Elevation of the toe (m).
+        toe: f64,
+        /// What is known of the unit, in words.
+        bounds: String,
+    },
     /// The crest turns away.
     #[error(
         "{s:.0} m along the crest, basinward is {angle_deg:.0}° off the direction in which the set steps; sheets would fold over each \
@@ -86,6 +102,9 @@ pub enum FreeClinoformError {
     /// The sheet cannot go on beyond its ends.
     #[error("the sheet cannot go on: {0}")]
     Extend(#[from] ExtendError),
+    /// The sheet cannot be divided.
+    #[error("the sheet cannot be divided halfway down: {0}")]
+    Divide(#[from] RefineError),
     /// The sheet has no side.
     #[error("what lies basinward of the sheet is not closed: {0}")]
     Side(#[from] ShellError),
@@ -126,7 +145,7 @@ pub struct FreeClinoformDesign {
     pub length: f64,
     /// Steepest gradient, halfway down.
     pub steepest: f64,
-    /// Gradient at crest and toe, as a fraction of the straight line's; above 0.
+    /// Gradient at crest and toe, as a fraction of the straight line's; 0 if these lie on level bounds of the unit.
     pub toe: f64,
     /// Elevation of the crest (m).
     pub crest: f64,
@@ -145,6 +164,8 @@ pub struct Room {
     pub high: DVec3,
     /// Least and greatest elevation of the unit in the domain (m).
     pub unit: [f64; 2],
+    /// Whether the unit's base and its top are level there.
+    pub is_level: bool,
 }
 
 /// A section: its slope with short straight ends, x basinward from the crest, y = elevation (m); and how far topset and bottomset go
@@ -158,7 +179,7 @@ struct Section {
 }
 
 impl FreeClinoformDesign {
-    /// The topset, the slope and the bottomset that are a step (m) farther in the direction of stepping than the crest, and a rise
+    /// The topset, the slope and the bottomset, or, with level ends, the two halves of the slope, that are a step (m) farther in the direction of stepping than the crest, and a rise
     /// (m) higher; u runs down.
     pub fn sheets(
         &self,
@@ -166,7 +187,7 @@ impl FreeClinoformDesign {
         step: f64,
         rise: f64,
         room: &Room,
-    ) -> Result<[Surface; 3], FreeClinoformError> {
+    ) -> Result<Vec<Surface>, FreeClinoformError> {
         let ahead = azimuth_vector(self.azimuth);
         self.check_turns(crest, ahead)?;
         let section = self.section(rise, room)?;
@@ -196,16 +217,20 @@ impl FreeClinoformDesign {
             .collect();
         let slope = Surface::new(section.across, carried.along, net)?;
         let slope = self.across_domain(&slope, ahead, room, crest)?;
+        if section.gradient == 0.0 {
+            let (upper, lower) = slope.split_u(HALFWAY)?;
+            return Ok(vec![upper, lower]);
+        }
         let down = ahead.extend(-section.gradient);
         let (first, last) = slope.knots_u().domain();
         let (crest, toe) = (slope.isocurve_u(first), slope.isocurve_u(last));
         let topset = Surface::ruled(&crest.moved(-section.above * down), &crest)?;
         let bottomset = Surface::ruled(&toe, &toe.moved(section.below * down))?;
-        Ok([topset, slope, bottomset])
+        Ok(vec![topset, slope, bottomset])
     }
 
     /// What lies basinward of them.
-    pub fn side(&self, sheets: &[Surface; 3], room: &Room) -> Result<Side, FreeClinoformError> {
+    pub fn side(&self, sheets: &[Surface], room: &Room) -> Result<Side, FreeClinoformError> {
         let ahead = azimuth_vector(self.azimuth);
         let places = sheets.iter().flat_map(Surface::net).map(|p| p.xy());
         let (first, _) = along(places, ahead);
@@ -226,11 +251,11 @@ impl FreeClinoformDesign {
             return Err(FreeClinoformError::NearlyStraight { steepest, mean });
         }
         let gradient = (slope[0].y - slope[1].y) / run;
-        if !(gradient > 0.0) {
-            return Err(FreeClinoformError::LevelEnds);
-        }
         let crest = self.crest + rise;
         let [lowest, highest] = [room.unit[0].max(room.low.z), room.unit[1].min(room.high.z)];
+        if !(gradient > 0.0) {
+            return self.landing(crest, [lowest, highest], room.is_level);
+        }
         let margin = BEYOND * (highest - lowest);
         let least = LEAST_BEYOND * height;
         let end = STRAIGHT * length;
@@ -257,6 +282,41 @@ impl FreeClinoformDesign {
             above,
             below,
             gradient,
+        })
+    }
+
+    /// The section from a level top to a level base (m), which it touches; halfway down, where it is to be divided, it has a knot.
+    fn landing(
+        &self,
+        crest: f64,
+        [lowest, highest]: [f64; 2],
+        is_level: bool,
+    ) -> Result<Section, FreeClinoformError> {
+        let toe = crest - self.height;
+        let same = |a: f64, b: f64| (a - b).abs() <= SAME_LEVEL * self.height;
+        if !(is_level && same(crest, highest) && same(toe, lowest)) {
+            let bounds = if is_level {
+                format!("the unit reaches from {lowest} m to {highest} m")
+            } else {
+                "its base or its top is not level".to_owned()
+            };
+            return Err(FreeClinoformError::LevelEnds { crest, toe, bounds });
+        }
+        let slope = sigmoid(highest - lowest, self.length, self.steepest, 0.0)?;
+        let (upper, lower) = split(&slope, HALFWAY);
+        let points = upper.into_iter().chain(lower.into_iter().skip(1));
+        let knots = [vec![0.0; 4], vec![HALFWAY; 3], vec![1.0; 4]];
+        let mut slope: Vec<DVec2> = points.map(|p| p + DVec2::Y * lowest).collect();
+        // To the last bit.
+        for (at, level) in [(0, highest), (1, highest), (5, lowest), (6, lowest)] {
+            slope[at].y = level;
+        }
+        Ok(Section {
+            across: KnotVector::new(3, knots.concat())?,
+            slope,
+            above: 0.0,
+            below: 0.0,
+            gradient: 0.0,
         })
     }
 

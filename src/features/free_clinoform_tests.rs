@@ -9,7 +9,13 @@ const ROOM: Room = Room {
     low: DVec3::new(0.0, 0.0, -20.0),
     high: DVec3::new(1000.0, 800.0, 0.0),
     unit: [-20.0, 0.0],
+    is_level: true,
 };
+
+/// Topset, slope and bottomset.
+fn three(sheets: Result<Vec<Surface>, FreeClinoformError>) -> [Surface; 3] {
+    sheets.unwrap().try_into().unwrap()
+}
 
 fn design() -> FreeClinoformDesign {
     FreeClinoformDesign {
@@ -39,7 +45,7 @@ fn crest() -> Trajectory {
 #[test]
 fn a_sheet_is_the_sigmoid_between_straight_ends_without_a_kink() {
     let crest = Trajectory::line(DVec2::new(200.0, -50.0), DVec2::new(200.0, 850.0)).unwrap();
-    let [topset, slope, bottomset] = design().sheets(&crest, 0.0, 0.0, &ROOM).unwrap();
+    let [topset, slope, bottomset] = three(design().sheets(&crest, 0.0, 0.0, &ROOM));
     let section = slope.isocurve_v(0.5);
     let wanted = sigmoid(20.0, 300.0, 0.12, 0.3).unwrap();
     for k in 0..=20 {
@@ -106,7 +112,7 @@ fn a_crest_that_climbs_is_higher_by_its_rise_and_still_leaves_the_unit() {
         crest: -10.0,
         ..design()
     };
-    let [topset, slope, bottomset] = design.sheets(&crest(), 100.0, 4.0, &ROOM).unwrap();
+    let [topset, slope, bottomset] = three(design.sheets(&crest(), 100.0, 4.0, &ROOM));
     assert!((slope.point(0.0, 0.3).z + 6.0).abs() < 1e-9);
     assert!(topset.point(0.0, 0.3).z > 1.1 && bottomset.point(1.0, 0.3).z < -21.1);
 }
@@ -121,8 +127,19 @@ fn crests_that_turn_back_and_sections_that_cannot_be_are_refused() {
     let refused = back.sheets(&crest(), 0.0, 0.0, &ROOM);
     assert!(matches!(refused, Err(FreeClinoformError::Turned { .. })));
     let level = FreeClinoformDesign { toe: 0.0, ..design };
-    let refused = level.sheets(&crest(), 0.0, 0.0, &ROOM);
-    assert!(matches!(refused, Err(FreeClinoformError::LevelEnds)));
+    let lower = level.sheets(&crest(), 0.0, -1.0, &ROOM);
+    assert!(matches!(lower, Err(FreeClinoformError::LevelEnds { .. })));
+    let bent = Room {
+        is_level: false,
+        ..ROOM
+    };
+    let refused = level.sheets(&crest(), 0.0, 0.0, &bent);
+    assert!(matches!(refused, Err(FreeClinoformError::LevelEnds { .. })));
+    // On level bounds there are two halves, which end on them.
+    let halves = level.sheets(&crest(), 0.0, 0.0, &ROOM).unwrap();
+    let ends = halves.iter().map(Surface::net);
+    let levels: Vec<[f64; 2]> = ends.map(|net| [net[0].z, net[net.len() - 1].z]).collect();
+    assert_eq!(levels, [[0.0, -10.0], [-10.0, -20.0]]);
     let hardly = FreeClinoformDesign {
         steepest: 20.0 / 300.0 * 1.001,
         ..design

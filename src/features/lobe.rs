@@ -34,6 +34,8 @@ use crate::nurbs::{KnotError, KnotVector, Surface, SurfaceError};
 pub const MOST: f64 = 0.9;
 /// A mouth bar's length and width in the channel's widths, its taper and its skew.
 const MOUTH_BAR: [f64; 4] = [5.0, 3.2, 0.5, 0.3];
+/// How far inside the channel a mouth bar begins, in the channel's widths: at its very end the rim would touch the end's plane.
+const INSIDE: f64 = 0.1;
 /// How far a base is sunk below what it lies on, as a fraction of the thickness: so that it does not coincide with it.
 pub const SUNK: f64 = 0.02;
 
@@ -147,7 +149,12 @@ impl LobeDesign {
             taper,
             skew,
         };
-        bar.with_apex(end.point)
+        bar.with_apex(Self::mouth(end, width))
+    }
+
+    /// Where the mouth bar of a channel of some width begins, in plan: a little upstream of the channel's end.
+    pub fn mouth(end: &Place, width: f64) -> DVec2 {
+        end.point - INSIDE * width * end.tangent()
     }
 
     /// The lobe, if there is one.

@@ -28,6 +28,7 @@ pub mod lobe;
 pub mod meander;
 pub mod migration;
 pub mod net;
+pub mod net_horizon;
 pub mod nets;
 mod nudge;
 pub mod own_section;

@@ -53,6 +53,22 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Field<T> {
     }
 }
 
+/// The last steps of a path that is too long for a message: what is meant is at its end.
+fn end_of(path: &str) -> String {
+    const LONGEST: usize = 44;
+    let mut rest = path;
+    while rest.chars().count() > LONGEST
+        && let Some((_, below)) = rest.split_once('.')
+    {
+        rest = below;
+    }
+    if rest.len() == path.len() {
+        path.to_owned()
+    } else {
+        format!("….{rest}")
+    }
+}
+
 struct FieldVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for FieldVisitor<T> {
@@ -191,7 +207,7 @@ impl<'t> Reader<'t> {
         let message = if path.is_empty() {
             failure.message
         } else {
-            format!("{}: {}", suggest::code(&path), failure.message)
+            format!("{}: {}", suggest::code(&end_of(&path)), failure.message)
         };
         self.wrong(node, message, failure.remedy);
     }

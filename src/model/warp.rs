@@ -45,6 +45,8 @@ pub(crate) struct Warped {
     pub(crate) deviation: f64,
     /// The steepest dip of the surface there (rad).
     pub(crate) steepest: f64,
+    /// The mean slope of the surface there: how far it rises along x and along y (m/m).
+    pub(crate) slope: DVec2,
 }
 
 impl Warp {
@@ -108,8 +110,10 @@ impl Warp {
             depth: self.depth,
         };
         let made = conform(&shell, &target, tolerance).map_err(wrong)?;
+        let (steepest, slope) = self.slopes(low.truncate(), high.truncate());
         Ok(Warped {
-            steepest: self.steepest(low.truncate(), high.truncate()),
+            steepest,
+            slope,
             body: Body::Shell(made.shell),
             deviation: made.deviation,
         })
@@ -117,14 +121,15 @@ impl Warp {
 }
 
 impl Warp {
-    /// The steepest dip of the surface between two corners in plan (rad), over a grid of places.
-    fn steepest(&self, low: DVec2, high: DVec2) -> f64 {
+    /// The steepest dip of the surface between two corners in plan (rad), and its mean slope, over a grid of places.
+    fn slopes(&self, low: DVec2, high: DVec2) -> (f64, DVec2) {
         let step = (high - low) / PLACES as f64;
         let height = |i: usize, j: usize| {
             self.surface
                 .height(low + step * DVec2::new(i as f64, j as f64))
         };
         let mut steepest = 0.0_f64;
+        let (mut sum, mut count) = (DVec2::ZERO, 0);
         for i in 0..PLACES {
             for j in 0..PLACES {
                 if let (Some(here), Some(east), Some(north)) =
@@ -132,10 +137,12 @@ impl Warp {
                 {
                     let slope = DVec2::new(east - here, north - here) / step;
                     steepest = steepest.max(slope.length().atan());
+                    sum += slope;
+                    count += 1;
                 }
             }
         }
-        steepest
+        (steepest, sum / f64::from(count.max(1)))
     }
 }
 

@@ -8,6 +8,8 @@
 )]
 
 mod checked;
+#[macro_use]
+mod straight;
 
 use clinothem::assembly::{self, Assembly, AssemblyError, Cancel, Engine, Options, Subject, proof};
 use clinothem::model::Model;
@@ -18,6 +20,8 @@ use clinothem::model::selection::Selection;
 
 #[allow(unused_imports, reason = "not every test program needs all of it")]
 pub use checked::*;
+#[allow(unused_imports, reason = "not every test program needs all of it")]
+pub use straight::{MEANDER, WIDER};
 
 /// The whole of a model, as this engine makes it.
 pub fn built(text: &str, overrides: &[&str], engine: Engine) -> Built {

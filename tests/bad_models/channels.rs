@@ -150,7 +150,7 @@ const TOML_EDITS: &[Edit] = &[
     ("porosity = 0.08", "porosity = ▸8", &["porosity of facies \"mud\" is 8", "not percent: 0.08"]),
     ("permeability = [0.5, 0.5, 0.01]", "permeability = [0.5, ▸-0.5, 0.01]", &["permeability of facies \"mud\" is -0.5", "cannot be negative"]),
     ("permeability = [0.5, 0.5, 0.01]", "permeability = ▸[0.5, 0.5]", &["expected one number or [x, y, z], found a list of 2"]),
-    ("porosity = 0.08", "density = ▸nan", &["expected a finite number, found the number NaN"]),
+    ("porosity = 0.08", "density = ▸nan", &["expected a finite number for the density of facies \"mud\", found the number NaN"]),
     ("color = \"#e6c25c\"", "color = ▸\"yelow\"", &["\"yelow\" is not a colour", "did you mean \"yellow\"?"]),
     ("color = \"#e6c25c\"", "color = ▸\"Dark Grey\"", &["\"Dark Grey\" is not a colour", "did you mean \"darkgrey\"?"]),
     ("color = \"#e6c25c\"", "color = ▸\"sandsteinfarben\"", &["is not a colour", "#e6c25c", "darkgrey"]),

@@ -15,6 +15,7 @@ mod clinoforms;
 mod companions;
 mod ellipsoids;
 mod files;
+mod keys;
 mod lags;
 mod meander_belts;
 mod nets;
@@ -101,6 +102,7 @@ fn the_good_files_are_good() {
         ("b.toml", NODULE, Format::Toml),
         ("c.toml", SHOREFACE, Format::Toml),
         ("d.toml", BODY, Format::Toml),
+        ("e.toml", include_str!("kinds.toml"), Format::Toml),
     ] {
         let source = Source::from_text(name, text, format);
         Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));

@@ -21,7 +21,7 @@ const BELT_EDITS: &[Edit] = &[
     ("shift = 20", "shift = ▸\"far\"", &["the shift of feature \"belt\""]),
     ("aggradation_fraction = 0.05", "aggradation_fraction = ▸0", &["the aggradation_fraction of feature \"belt\" is 0", "between 0.001 and 1"]),
     ("center = [50, 50]", "center = ▸[50]", &["expected a list of two for the center of feature \"belt\""]),
-    ("asymmetry = { by_curvature = 0.2 }", "asymmetry = { by_curvature = ▸0.7 }", &["the asymmetry of feature \"belt\" is 0.7", "between -0.5 and 0.5"]),
+    ("asymmetry = { by_curvature = 0.2 }", "asymmetry = { by_curvature = ▸0.7 }", &["the by_curvature of the asymmetry of feature \"belt\" is 0.7", "between -0.5 and 0.5"]),
     ("asymmetry = { by_curvature = 0.2 }", "asymmetry = { by_curvature = 0.2, ▸uniform = [0, 1] }", &["unknown key `uniform`"]),
     ("asymmetry = { by_curvature = 0.2 }", "asymmetry = { ▸by_curvatur = 0.2 }", &["by_curvatur"]),
     ("shift = 20", "shift = 20\n[[feature]]\nid = \"child\"\nkind = \"lag\"\nparent = ▸\"belt\"\nfacies = \"mud\"\n", &["has the parent \"belt\""]),

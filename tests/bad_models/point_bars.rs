@@ -26,7 +26,7 @@ const BAR_EDITS: &[Edit] = &[
     ("least_turn_deg = 20", "▸least_turn = 20", &["unknown key `least_turn` in feature \"bar\"", "least_turn_deg"]),
     ("package_facies = [\"sand\", \"mud\", \"sand\", \"mud\"]", "package_facies = ▸[\"sand\", \"mud\"]", &["feature \"bar\" has 4 surfaces, and so packages, in each bend, but 2 package_facies"]),
     ("package_facies = [\"sand\", \"mud\", \"sand\", \"mud\"]", "package_facies = [\"sand\", ▸\"mudd\", \"sand\", \"mud\"]", &["there is no facies \"mudd\"", "did you mean \"mud\"?"]),
-    ("package_facies = [\"sand\", \"mud\", \"sand\", \"mud\"]", "package_facies = [\"sand\", ▸3, \"sand\", \"mud\"]", &["expected the name of a facies, found"]),
+    ("package_facies = [\"sand\", \"mud\", \"sand\", \"mud\"]", "package_facies = [\"sand\", ▸3, \"sand\", \"mud\"]", &["expected the name of a facies in the package_facies of feature \"bar\", found"]),
     ("package_facies = [\"sand\", \"mud\", \"sand\", \"mud\"]", "package_facies = ▸\"sand\"", &["expected a list of facies for the package_facies of feature \"bar\""]),
     ("thickness = 0.1", "thickness = ▸0", &["the thickness of the drape of feature \"bar\" is 0", "between 0.001 and 10"]),
     ("thickness = 0.1, ", "", &["the drape of feature \"bar\" has no `thickness`"]),

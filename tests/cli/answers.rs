@@ -2,6 +2,7 @@
 
 use std::process::Stdio;
 
+use clinothem::model::TEMPLATES;
 use serde_json::Value;
 
 use crate::sandbox::{STRAIGHT, Sandbox};
@@ -239,19 +240,17 @@ fn the_general_fuse_alone_builds_a_model_with_a_horizon() {
 fn every_template_is_listed_and_written_and_one_pair_is_one_pair() {
     let sandbox = Sandbox::new(STRAIGHT);
     let listed = sandbox.answer("new");
-    for name in [
-        "quickstart",
-        "channel-belt",
-        "isochores",
-        "parasequence",
-        "coastal",
-    ] {
+    for template in TEMPLATES {
+        let start = format!("{} ", template.name);
+        let line = listed.lines().find(|line| line.starts_with(&start));
         assert!(
-            listed.lines().any(|line| line.starts_with(name)),
+            line.is_some_and(|line| line.ends_with(template.about)),
             "{listed}"
         );
-        sandbox.answer(&format!("new {name}"));
-        assert!(sandbox.path(&format!("{name}.toml")).is_file());
+        // Two may write files of one name.
+        sandbox.answer(&format!("new {} --force", template.name));
+        let written = std::fs::read_to_string(sandbox.path(&template.file_name())).unwrap();
+        assert!(written == template.text, "{}", template.name);
     }
     let said = sandbox.answer("build quickstart.toml --formats none");
     assert!(said.contains("1 pair of bodies crosses;"), "{said}");

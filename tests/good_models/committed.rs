@@ -1,7 +1,12 @@
 //! The committed models and the templates.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
 use clinothem::model::{
-    FeatureKind, Format, Model, Profile, Quantity, Selector, Source, TEMPLATES, TrajectorySpec,
+    FeatureKind, Format, Model, Profile, Quantity, Selector, Source, TEMPLATES, Template,
+    TrajectorySpec,
 };
 
 use super::check;
@@ -72,6 +77,82 @@ fn json_of_the_same_content_is_the_same_model() {
     let from_toml = read("models/channel-belt/channel-belt.toml");
     assert_eq!(from_json.domain.size(), from_toml.domain.size());
     assert_eq!(from_json.features[0].kind, from_toml.features[0].kind);
+}
+
+/// The files below `models`, by the names of their templates, with their text.
+fn files() -> BTreeMap<String, String> {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
+    let mut files = BTreeMap::new();
+    for folder in fs::read_dir(models).unwrap() {
+        let folder = folder.unwrap();
+        let name = folder.file_name().into_string().unwrap();
+        let mut found = 0;
+        for file in fs::read_dir(folder.path()).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "toml") {
+                continue;
+            }
+            found += 1;
+            let stem = path.file_stem().unwrap().to_str().unwrap();
+            let name = if stem == name {
+                name.clone()
+            } else {
+                format!("{name}/{stem}")
+            };
+            files.insert(name, fs::read_to_string(path).unwrap());
+        }
+        assert!(found > 0, "models/{name} holds no model");
+    }
+    files
+}
+
+#[test]
+fn every_committed_model_is_a_template_and_every_template_is_one() {
+    let templates: BTreeMap<String, String> = TEMPLATES
+        .iter()
+        .map(|template| (template.name.to_owned(), template.text.to_owned()))
+        .collect();
+    let files = files();
+    let names = |of: &BTreeMap<String, String>| of.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&templates), names(&files));
+    assert_eq!(templates.len(), TEMPLATES.len(), "no name twice");
+    assert!(templates == files, "a template has another file's text");
+}
+
+#[test]
+fn every_template_has_a_recipe_and_no_recipe_starts_from_nothing() {
+    let recipes = include_str!("../../docs/recipes.md");
+    let starts: BTreeSet<&str> = recipes
+        .split("| `clinothem new ")
+        .skip(1)
+        .map(|rest| rest.split('`').next().unwrap())
+        .collect();
+    let names: BTreeSet<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+    assert_eq!(starts, names);
+    // What is looked at is the file that `new` writes.
+    for line in recipes.lines().filter(|line| line.starts_with("| ")) {
+        let Some((_, start)) = line.split_once("`clinothem new ") else {
+            continue;
+        };
+        let template = Template::find(start.split('`').next().unwrap()).unwrap();
+        let looked = line.rsplit("`clinothem ").next().unwrap();
+        let file = format!(" {}", template.file_name());
+        assert!(looked.contains(&file), "{line}");
+    }
+}
+
+#[test]
+fn a_template_that_is_misspelt_is_guessed() {
+    assert_eq!(
+        Template::find("chanel-belt").unwrap_err(),
+        "did you mean `channel-belt`?"
+    );
+    assert_eq!(
+        Template::find("contact/piece").unwrap_err(),
+        "did you mean `contacts/pieces`?"
+    );
+    let unknown = Template::find("xyzzy").unwrap_err();
+    assert!(unknown.contains("lists them"), "{unknown}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod bodies;
 mod coincident;
 mod draws;
 mod generic;
+mod referring;
 mod sedimentary;
 mod strata;
 mod tables;
@@ -32,6 +33,8 @@ pub enum Kind {
     Sedimentary,
     /// The same in round numbers: channels with children that cross, meet and follow each other.
     RoundSedimentary,
+    /// Features that refer to others, and horizons from control nets.
+    Referring,
 }
 
 impl FromStr for Kind {
@@ -44,8 +47,9 @@ impl FromStr for Kind {
             "well-tops" => Ok(Self::WellTops),
             "sedimentary" => Ok(Self::Sedimentary),
             "round-sedimentary" => Ok(Self::RoundSedimentary),
+            "referring" => Ok(Self::Referring),
             _ => Err(format!(
-                "there is no kind `{word}`; there are generic, coincident, well-tops, sedimentary and round-sedimentary"
+                "there is no kind `{word}`; there are generic, coincident, well-tops, sedimentary, round-sedimentary and referring"
             )),
         }
     }
@@ -59,6 +63,7 @@ pub fn model(kind: Kind, seed: u64, plain: bool) -> Table {
         Kind::WellTops => 3,
         Kind::Sedimentary => 4,
         Kind::RoundSedimentary => 5,
+        Kind::Referring => 6,
     };
     let mut draws = Draws::new(seed, salt, plain);
     let mut model = match kind {
@@ -67,6 +72,7 @@ pub fn model(kind: Kind, seed: u64, plain: bool) -> Table {
         Kind::WellTops => wells::model(&mut draws),
         Kind::Sedimentary => sedimentary::model(&mut draws),
         Kind::RoundSedimentary => sedimentary::round(&mut draws),
+        Kind::Referring => referring::model(&mut draws),
     };
     let name = format!("{kind:?} {seed}");
     model.insert("name".to_owned(), name.into());

@@ -1,40 +1,22 @@
 //! Bodies from control nets of one's own: one that is closed, or several that join.
 
 use glam::DVec3;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
+use schemars::{Schema, SchemaGenerator};
 
 use super::keys::Keys;
 use super::kind::Kind;
 use super::made::{Made, Site};
-use super::placed::{Placed, told};
+use super::placed::{self, Placed, told};
 use crate::features::body::Body;
 use crate::features::nets::NetsError;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
-use crate::model::read::{Any, Field};
-use crate::model::values::nets;
 
 /// A body from control nets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySpec {
     /// Its nets, and where they are.
     pub placed: Placed,
-}
-
-/// A body from control nets of your own: of one closed net, of two that share their rims, or of any number that join on all sides.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct BodyFile {
-    /// One closed net, or a list of nets; every side of a net is a side of another one or of itself, or a point.
-    #[schemars(schema_with = "nets::schema")]
-    pub(crate) nets: Field<Any>,
-    /// Where the points count from, [x, y, z] in metres; [0, 0, 0] if left out.
-    #[schemars(with = "Option<[crate::model::values::quantity::Quantity; 3]>")]
-    pub(crate) at: Option<Field<Any>>,
-    /// Direction of the points' y axis in degrees, clockwise from north: they are turned about `at`; 0 if left out.
-    #[schemars(with = "Option<crate::model::values::quantity::Quantity>")]
-    pub(crate) azimuth_deg: Option<Field<Any>>,
 }
 
 impl Kind for BodySpec {
@@ -51,13 +33,15 @@ impl Kind for BodySpec {
     };
 
     fn schema(generator: &mut SchemaGenerator) -> Schema {
-        BodyFile::json_schema(generator)
+        placed::schema(
+            "A body from control nets of your own: of one closed net, of two that share their rims, or of any number that join on all sides.",
+            "One closed net, or a list of nets; every side of a net is a side of another one or of itself, or a point.",
+            generator,
+        )
     }
 
     fn read(keys: &mut Keys<'_, '_>) -> Option<Self> {
-        let file: BodyFile = keys.table()?;
-        let placed = keys.placed(file.nets, file.at, file.azimuth_deg)?;
-        Some(Self { placed })
+        keys.placed().map(|placed| Self { placed })
     }
 
     fn make(&self, _: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {

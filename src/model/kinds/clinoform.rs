@@ -11,6 +11,7 @@ use super::made::{Bound, Frame, Made, Part, Site, TakesFrom, VolumeName};
 use super::unit::CLINOFORMS;
 use crate::features::body::Body;
 use crate::features::free_clinoform::{Basinward, FreeClinoformDesign, FreeClinoformError, Room};
+use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason, diagonal};
 use crate::model::nature::{Copies, Nature};
 use crate::model::read::{Any, Field};
@@ -30,11 +31,13 @@ const OVERSHOOT: f64 = 0.1;
 const UP: f64 = 0.37;
 
 const TOES: Limits = Limits {
-    low: 0.02,
+    low: 0.0,
     high: 0.95,
     open: false,
-    words: "must lie between 0.02 (nearly level ends) and 0.95 (nearly straight)",
+    words: "must lie between 0.02 (nearly level ends) and 0.95 (nearly straight), or be 0 (level ends)",
 };
+/// The least toe above 0: sheets go far on with it until they have left their unit.
+const LEAST_TOE: f64 = 0.02;
 const STEEPNESS: Limits = Limits {
     low: 0.0,
     high: 80.0,
@@ -97,7 +100,7 @@ pub(crate) struct ClinoformFile {
     /// Steepest dip in degrees, halfway down: more than that of a straight line from crest to toe, at most 80; if left out, its gradient is twice that line's.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) dip_deg: Option<Field<Any>>,
-    /// Gradient at crest and toe as a fraction of the straight line's, between 0.02 and 0.95; 0.3 if left out. Beyond both ends sheets go on with it, straight along `azimuth_deg`, until they have left the unit.
+    /// Gradient at crest and toe as a fraction of the straight line's, between 0.02 and 0.95; 0.3 if left out. Beyond both ends sheets go on with it, straight along `azimuth_deg`, until they have left the unit. Or 0: level ends, which touch a level top and a level base of the unit.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) toe: Option<Field<Any>>,
     /// The first crest, in plan. Beyond its ends it goes on straight as far as the domain reaches.
@@ -149,7 +152,7 @@ impl Kind for ClinoformSpec {
         let crest = keys.optional_quantity(file.crest, "crest", ANY);
         let length = keys.quantity(file.length, "length", "length = 400", POSITIVE);
         let dip = keys.optional_quantity(file.dip_deg, "dip_deg", STEEPNESS);
-        let toe = keys.optional_quantity(file.toe, "toe", TOES);
+        let toe = keys.clinoform_toe(file.toe);
         let example = "trajectory = { kind = \"line\", azimuth_deg = 0 }";
         let trajectory = keys
             .need(file.trajectory, "trajectory", example)
@@ -210,7 +213,12 @@ impl Kind for ClinoformSpec {
                 ..Made::of(Vec::new())
             });
         }
-        let room = Room { low, high, unit };
+        let room = Room {
+            low,
+            high,
+            unit,
+            is_level: [base, top].iter().all(|bound| bound.level().is_some()),
+        };
         let crest = {
             let overshoot = OVERSHOOT * diagonal(site.domain);
             trajectory::trajectory(&self.trajectory, site, overshoot, draws)?
@@ -297,7 +305,8 @@ impl ClinoformSpec {
             length,
             steepest: dip.map_or(STEEPEST * height / length, |dip| dip.to_radians().tan()),
             toe,
-            crest: elevation + UP * nudge,
+            // Level ends stay on their bounds.
+            crest: elevation + if toe == 0.0 { 0.0 } else { UP * nudge },
             basinward: self.basinward,
             azimuth,
         })
@@ -309,7 +318,7 @@ fn reason(error: &FreeClinoformError) -> &'static str {
     match error {
         FreeClinoformError::Section(_)
         | FreeClinoformError::NearlyStraight { .. }
-        | FreeClinoformError::LevelEnds => "impossible section",
+        | FreeClinoformError::LevelEnds { .. } => "impossible section",
         FreeClinoformError::Turned { .. } => "crest turned away",
         FreeClinoformError::Extrusion(_) => "crest too bent for the length",
         _ => "no clinoform",
@@ -317,6 +326,27 @@ fn reason(error: &FreeClinoformError) -> &'static str {
 }
 
 impl Keys<'_, '_> {
+    /// 0 alone, or not so little that it would be nearly nothing.
+    fn clinoform_toe(&self, field: Option<Field<Any>>) -> Result<Option<Quantity>, Reported> {
+        let node = match &field {
+            Some(Field::Good(node, Any)) => *node,
+            _ => self.draft.node,
+        };
+        let toe = self.optional_quantity(field, "toe", TOES)?;
+        let least = toe.as_ref().map(|toe| toe.support().0);
+        let is_level = toe.as_ref().is_some_and(|toe| toe.constant() == Some(0.0));
+        if let Some(least) = least.filter(|least| *least < LEAST_TOE && !is_level) {
+            let what = self.what("toe");
+            self.checker.reader.wrong(
+                node,
+                format!("{what} can be {least}: it {}", TOES.words),
+                "give at least 0.02; or 0 where the unit's base and top are level",
+            );
+            return Err(Reported);
+        }
+        Ok(toe)
+    }
+
     fn basinward(&self, field: Option<Field<String>>) -> Option<Basinward> {
         let Some(field) = field else {
             return Some(Basinward::Right);

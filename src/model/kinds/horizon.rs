@@ -108,7 +108,12 @@ impl Kind for HorizonSpec {
                 ..Part::of(Body::Side(Arc::new(side)))
             }],
             frame: Frame::Unit(surface.clone()),
-            decisions: Vec::new(),
+            decisions: match &self.surface {
+                HorizonSurface::Net { tolerance, .. } => {
+                    vec![format!("follows its control net within {tolerance} m")]
+                }
+                _ => Vec::new(),
+            },
         })
     }
 

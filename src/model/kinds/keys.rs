@@ -162,7 +162,10 @@ impl<'t> Keys<'_, 't> {
             let found = reader.tree.describe(*node);
             reader.wrong(
                 *node,
-                format!("expected the name of a facies, found {found}"),
+                format!(
+                    "expected the name of a facies in {}, found {found}",
+                    self.what(key)
+                ),
                 remedy,
             );
             None

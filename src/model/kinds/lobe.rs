@@ -8,8 +8,10 @@ use super::keys::Keys;
 use super::kind::Kind;
 use super::made::{Made, Outcome, Part, Site};
 use crate::features::body::Body;
+use crate::features::fabric::Fabric;
 use crate::features::lobe::{LobeDesign, SUNK};
 use crate::features::reach::Reach;
+use crate::features::trajectory::azimuth_vector;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -160,6 +162,7 @@ impl Kind for LobeSpec {
         Ok(Made::of(vec![Part {
             drawn: draws.taken(),
             level: Some(base),
+            fabric: Some(Fabric::along(azimuth_vector(design.azimuth))),
             ..Part::of(Body::Shell(shell))
         }]))
     }
@@ -185,8 +188,8 @@ impl Kind for LobeSpec {
 struct MouthBar {
     /// As wide, thick and long as the channel says.
     design: LobeDesign,
-    /// The channel's end in plan.
-    end: DVec2,
+    /// Where it begins in plan.
+    start: DVec2,
     /// The elevation of the channel's top there (m).
     top: f64,
 }
@@ -197,7 +200,7 @@ fn mouth_bar(reach: &Reach) -> MouthBar {
     let top = station.middle.y;
     MouthBar {
         design: LobeDesign::mouth_bar(&station.place, station.width, station.depth, top),
-        end: station.place.point,
+        start: LobeDesign::mouth(&station.place, station.width),
         top,
     }
 }
@@ -215,7 +218,7 @@ impl MouthBar {
             Some(_) => site.elevation(base, "base", [0.0; 2], draws)?,
             None => self.top - shape.thickness,
         };
-        Ok((shape.with_apex(self.end), base))
+        Ok((shape.with_apex(self.start), base))
     }
 }
 

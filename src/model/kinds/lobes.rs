@@ -9,10 +9,12 @@ use super::kind::Kind;
 use super::made::{Frame, Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::conform::{Target, conform};
+use crate::features::fabric::{Fabric, mean_slope};
 use crate::features::horizon::Horizon;
 use crate::features::lobe::{Lobe, LobeDesign};
 use crate::features::shell::Shell;
 use crate::features::stacking::{Pile, Region, Stack, filled};
+use crate::features::trajectory::azimuth_vector;
 use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
@@ -171,7 +173,7 @@ impl Kind for LobesSpec {
                 ),
             };
             let center = next_center(stack, &shape, compensation, number, draws)?;
-            let (lobe, shell) = laid(shape.with_center(center), &mut pile, erosion)
+            let (lobe, shell, slope) = laid(shape.with_center(center), &mut pile, erosion)
                 .map_err(|message| ("impossible lobe", format!("lobe {number}: {message}")))?;
             let body = if erosion > 0.0 {
                 shell
@@ -182,6 +184,7 @@ impl Kind for LobesSpec {
                     .map_err(|error| ("impossible lobe", format!("lobe {number}: {error}")))?
             };
             stack.lay(&lobe, |at| pile.relief(at));
+            let fabric = Fabric::along(azimuth_vector(shape.azimuth)).sheared(slope);
             let own = draws.drawn[before..].iter().map(|(key, value)| {
                 let (_, key) = key.split_once('.').unwrap_or(("", key));
                 (key.to_owned(), *value)
@@ -189,6 +192,7 @@ impl Kind for LobesSpec {
             parts.push(Part {
                 name: format!("-{number}"),
                 drawn: common.iter().cloned().chain(own).collect(),
+                fabric: Some(fabric),
                 from: if erosion > 0.0 {
                     TakesFrom::Anything
                 } else {
@@ -229,9 +233,13 @@ fn next_center(
     Ok(center)
 }
 
-/// A lobe laid on what is there, which it is part of from then on; and its body. As it is sunk into that, it is made as much thicker
+/// A lobe laid on what is there, which it is part of from then on; its body; and the mean slope of what it lies on. As it is sunk into that, it is made as much thicker
 /// and wider: what stands out of a level floor is as thick and as wide as it shall be.
-fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, Shell), String> {
+fn laid(
+    design: LobeDesign,
+    pile: &mut Pile<'_>,
+    erosion: f64,
+) -> Result<(Lobe, Shell, DVec2), String> {
     let plan = design.build().map_err(|error| error.to_string())?.plan();
     let margin = MARGIN * (plan[1] - plan[0]);
     let floor = pile
@@ -254,8 +262,9 @@ fn laid(design: LobeDesign, pile: &mut Pile<'_>, erosion: f64) -> Result<(Lobe, 
     };
     let tolerance = WITHIN * floor.lowered() / 2.0;
     let made = conform(&shell, &target, tolerance).map_err(|error| error.to_string())?;
+    let slope = mean_slope(&|at| floor.height(at), lobe.plan());
     pile.lay(lobe, floor);
-    Ok((lobe, made.shell))
+    Ok((lobe, made.shell, slope))
 }
 
 /// The lowest elevation of a surface over a plan (m), over a grid of places.

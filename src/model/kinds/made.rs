@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::features::body::Body;
 use crate::features::fabric::Fabric;
@@ -171,6 +171,8 @@ pub(crate) struct Part {
     pub(crate) level: Option<f64>,
     /// How its layers lie, if its body, its channel and its unit do not tell.
     pub(crate) fabric: Option<Fabric>,
+    /// Of what conforms to a surface: the surface's mean slope there, by which its layers are sheared (m/m along x and y).
+    pub(crate) slope: DVec2,
     /// Of a layer: the fraction of the way from the base to the top of what is divided at which it has its properties. All layers of
     /// an instance share the draws of these.
     pub(crate) fraction: Option<f64>,
@@ -236,6 +238,7 @@ impl Part {
             drawn: Vec::new(),
             level: None,
             fabric: None,
+            slope: DVec2::ZERO,
             fraction: None,
         }
     }

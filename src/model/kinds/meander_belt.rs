@@ -11,6 +11,7 @@ use super::kind::Kind;
 use super::made::{Made, Outcome, Part, Site, TakesFrom, VolumeName};
 use crate::features::body::Body;
 use crate::features::channel::{ChannelDesign, Origin};
+use crate::features::fabric::Fabric;
 use crate::features::meander::SineGenerated;
 use crate::features::migration::Migration;
 use crate::features::profile::Profile as Along;
@@ -221,8 +222,11 @@ impl Kind for MeanderBeltSpec {
             let trough = design
                 .build(&line)
                 .map_err(|error| (error.reason(), of(at, &error)))?;
+            let (low, high) = domain.corners();
+            let direction = line.mean_direction(low.truncate(), high.truncate());
             parts.push(Part {
                 name: format!("-{}", at + 1),
+                fabric: direction.map(Fabric::along),
                 from: TakesFrom::Anything,
                 drawn: drawn.clone(),
                 ..Part::of(Body::Trough(trough))

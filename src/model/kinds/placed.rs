@@ -1,14 +1,45 @@
 //! Control nets where they are: what sheets and bodies of one's own share.
 
 use glam::DVec3;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserialize;
+use serde_json::{Value, json};
 
 use super::keys::Keys;
 use crate::features::nets::{Joined, NamedNet, Nets, Placement};
 use crate::model::draws::{Draws, Reason};
 use crate::model::read::{Any, Field};
 use crate::model::values::limits::{ANY, AZIMUTH};
+use crate::model::values::nets;
 use crate::model::values::quantity::Quantity;
 use crate::model::values::tuple::Tuple;
+
+/// The keys of what is made of control nets.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct PlacedFile {
+    #[schemars(schema_with = "nets::schema")]
+    nets: Field<Any>,
+    /// Where the points count from, [x, y, z] in metres; [0, 0, 0] if left out.
+    #[schemars(with = "Option<[Quantity; 3]>")]
+    at: Option<Field<Any>>,
+    /// Direction of the points' y axis in degrees, clockwise from north: they are turned about `at`; 0 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    azimuth_deg: Option<Field<Any>>,
+}
+
+/// The table of a kind that is made of control nets, for editors: what it is, and what its nets are.
+pub(crate) fn schema(about: &str, nets: &str, generator: &mut SchemaGenerator) -> Schema {
+    let mut schema = PlacedFile::json_schema(generator);
+    schema.insert("description".to_owned(), json!(about));
+    if let Some(own) = schema
+        .pointer_mut("/properties/nets")
+        .and_then(Value::as_object_mut)
+    {
+        own.insert("description".to_owned(), json!(nets));
+    }
+    schema
+}
 
 /// Nets, and where they are.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,12 +90,12 @@ pub(crate) fn told(nets: &Nets) -> Vec<String> {
 
 impl Keys<'_, '_> {
     /// The nets of the feature, with where they are.
-    pub(crate) fn placed(
-        &self,
-        nets: Field<Any>,
-        at: Option<Field<Any>>,
-        azimuth: Option<Field<Any>>,
-    ) -> Option<Placed> {
+    pub(crate) fn placed(&self) -> Option<Placed> {
+        let PlacedFile {
+            nets,
+            at,
+            azimuth_deg,
+        } = self.table()?;
         let example = "nets = { points = [[[0, 0, 0], [0, 9, 0]], [[9, 0, 0], [9, 9, 1]]] }";
         let nets = self
             .need(nets, "nets", example)
@@ -81,7 +112,7 @@ impl Keys<'_, '_> {
                 place.read(&self.checker.reader, node)
             }),
         };
-        let azimuth = self.optional_quantity(azimuth, "azimuth_deg", AZIMUTH);
+        let azimuth = self.optional_quantity(azimuth_deg, "azimuth_deg", AZIMUTH);
         Some(Placed {
             nets: nets?,
             at: at?,

@@ -13,7 +13,7 @@ use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
-use crate::model::tree::{NodeId, Value, quoted};
+use crate::model::tree::quoted;
 use crate::model::values::limits::Limits;
 use crate::model::values::quantity::{Quantity, quantity};
 
@@ -373,53 +373,27 @@ impl Keys<'_, '_> {
         field: Option<Field<Any>>,
         surfaces: Option<usize>,
     ) -> Option<Vec<usize>> {
-        let Some(field) = field else {
-            return Some(Vec::new());
+        let place = match &field {
+            Some(Field::Good(node, Any)) => *node,
+            _ => self.draft.node,
         };
-        let (list, Any) = field.good()?;
-        let reader = &self.checker.reader;
-        let remedy =
-            "write the packages' facies from the oldest to the youngest in [ ], or leave them out";
-        let Value::List(nodes) = reader.tree.value(list) else {
-            let found = reader.tree.describe(list);
-            reader.wrong(
-                list,
-                format!(
-                    "expected a list of facies for the package_facies of {}, found {found}",
-                    self.draft.name
-                ),
-                remedy,
-            );
-            return None;
-        };
-        let one = |node: &NodeId| {
-            if let Value::Text(name) = reader.tree.value(*node) {
-                return self.checker.known_facies(*node, name, self.family.facies);
-            }
-            let found = reader.tree.describe(*node);
-            reader.wrong(
-                *node,
-                format!("expected the name of a facies, found {found}"),
-                remedy,
-            );
-            None
-        };
-        let all: Vec<Option<usize>> = nodes.iter().map(one).collect();
+        let packages = self.facies_list(field, "package_facies")?;
         if let Some(surfaces) = surfaces
-            && surfaces != nodes.len()
+            && !packages.is_empty()
+            && surfaces != packages.len()
         {
-            reader.wrong(
-                list,
+            self.checker.reader.wrong(
+                place,
                 format!(
                     "{} has {surfaces} surfaces, and so packages, in each bend, but {} package_facies",
                     self.draft.name,
-                    nodes.len()
+                    packages.len()
                 ),
                 "give one for each package, from the oldest to the youngest, or leave them out",
             );
             return None;
         }
-        all.into_iter().collect()
+        Some(packages)
     }
 
     fn drape(&self, field: Option<Field<Any>>) -> Result<Option<Drape>, Reported> {

@@ -8,6 +8,7 @@ use super::kind::Kind;
 use super::made::{Made, Part, Site};
 use crate::features::body::Body;
 use crate::features::extrusion::ExtrusionError;
+use crate::features::fabric::Fabric;
 use crate::features::profile::Profile;
 use crate::features::scour::{PitAndWing, ScourDesign, ScourError, constant_area};
 use crate::features::trajectory::{Trajectory, azimuth_vector};
@@ -230,9 +231,12 @@ impl Kind for ScourSpec {
         let shell = design
             .build(&trajectory)
             .map_err(|error| (reason(&error), error.to_string()))?;
+        let (low, high) = site.domain.corners();
+        let direction = trajectory.mean_direction(low.truncate(), high.truncate());
         Ok(Made::of(vec![Part {
             drawn: draws.taken(),
             level: Some(top - PROUD * deepest),
+            fabric: direction.map(Fabric::along),
             ..Part::of(Body::Shell(shell))
         }]))
     }

@@ -5,11 +5,13 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Made, Site};
+use super::made::{Made, Part, Site};
 use crate::features::body::Body;
+use crate::features::fabric::Fabric;
 use crate::features::levee::Bank;
 use crate::features::reach::Reach;
 use crate::features::splay::{Breaches, SplayDesign};
+use crate::features::trajectory::azimuth_vector;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -181,7 +183,11 @@ impl Kind for SplaySpec {
         };
         let shell = design.shell(reach);
         let shell = shell.map_err(|error| ("impossible splay", error.to_string()))?;
-        Ok(Made::body(Body::Shell(shell), draws.taken()))
+        Ok(Made::of(vec![Part {
+            drawn: draws.taken(),
+            fabric: Some(Fabric::along(azimuth_vector(design.lobe(reach).azimuth))),
+            ..Part::of(Body::Shell(shell))
+        }]))
     }
 }
 

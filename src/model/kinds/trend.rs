@@ -276,15 +276,13 @@ impl TrendSpec {
         Ok(Made::of(parts))
     }
 
-    /// One layer. Its place in the whole stands with what was drawn for it: properties that follow the trend are asked for there.
+    /// One layer, with its place in the whole: properties that follow the trend have their values there.
     fn layer(&self, layer: usize, body: Body, from: TakesFrom, drawn: &[(String, f64)]) -> Part {
-        let place = trend::fraction(layer, self.steps);
-        let mut drawn = drawn.to_vec();
-        drawn.push(("layer_fraction".to_owned(), place));
         Part {
             name: format!("-{layer}"),
             from,
-            drawn,
+            drawn: drawn.to_vec(),
+            fraction: Some(trend::fraction(layer, self.steps)),
             ..Part::of(body)
         }
     }

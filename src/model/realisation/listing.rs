@@ -151,7 +151,7 @@ impl<'a> Listing<'a> {
         let mut parameters = Vec::new();
         for (index, feature) in self.model.features.iter().enumerate() {
             if let Some(base) = feature.kind.base() {
-                let draw = |key: Key<'_>| surface::horizon(base.surface, key);
+                let draw = |key: Key<'_>| surface::horizon(base.surface, &self.model.domain, key);
                 let ((horizon, own), reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
                 let rejected = reasons.into_iter().map(|reason| (Some(index), reason));
                 self.rejected.extend(rejected);
@@ -178,7 +178,7 @@ impl<'a> Listing<'a> {
         let Some(surface) = surface else {
             return Ok(None);
         };
-        let draw = |key: Key<'_>| surface::horizon(surface, key);
+        let draw = |key: Key<'_>| surface::horizon(surface, &self.model.domain, key);
         let ((horizon, drawn), reasons) = draw_whole(self.model, "domain", which, draw)?;
         let rejected = reasons.into_iter().map(|reason| (None, reason));
         self.rejected.extend(rejected);

@@ -7,6 +7,8 @@ use rayon::prelude::*;
 
 use super::listing::{Due, Listing};
 use super::{RealisationError, draw_whole};
+use crate::features::body::Body;
+use crate::features::fabric::Fabric;
 use crate::model::draws::{Draws, Key, attempt};
 use crate::model::interior::Interior;
 use crate::model::kinds::made::{Frame, Made, Part, Site};
@@ -39,6 +41,11 @@ impl Built {
         {
             deviation = deviation.max(warped.deviation);
             steepest = steepest.max(warped.steepest);
+            // As a shell it does not tell its axes any more.
+            if let Body::Ellipsoid(ellipsoid) = &part.body {
+                part.fabric.get_or_insert(Fabric::of_ellipsoid(ellipsoid));
+            }
+            part.slope = warped.slope;
             part.body = warped.body;
         }
         self.made.decisions.push(warp.told(deviation, steepest));

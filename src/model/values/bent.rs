@@ -53,7 +53,8 @@ pub(crate) fn bent_profile(
     let file: ByCurvatureFile = reader.table(node)?;
     reader.close(node, what);
     let (at, Any) = file.by_curvature.good()?;
-    quantity(reader, at, what, limits).map(BentProfile::ByCurvature)
+    let what = format!("the by_curvature of {what}");
+    quantity(reader, at, &what, limits).map(BentProfile::ByCurvature)
 }
 
 impl From<f64> for BentProfile {

@@ -108,6 +108,11 @@ impl Checker<'_> {
         all.into_iter().collect()
     }
 
+    /// A net by itself; `of` names what it is that of.
+    pub(crate) fn one_net(&self, node: NodeId, of: &str) -> Option<NamedNet> {
+        self.net(node, (of, 0, 1), &mut Vec::new())
+    }
+
     /// One of a number of nets.
     fn net(
         &self,

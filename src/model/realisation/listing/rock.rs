@@ -100,7 +100,7 @@ impl Layers<'_> {
                 Some(fabric) => fabric,
                 None => self.around()?,
             };
-            fabrics.push(fabric);
+            fabrics.push(fabric.sheared(part.slope));
         }
         Ok(fabrics)
     }

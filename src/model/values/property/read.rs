@@ -296,7 +296,7 @@ impl Checker<'_> {
                 Some(value) if value.is_finite() => Quantity::Constant(value),
                 _ => {
                     let found = reader.tree.describe(node);
-                    let message = format!("expected a finite number, found {found}");
+                    let message = format!("expected a finite number for {what}, found {found}");
                     reader.wrong(node, message, "rock properties are finite numbers");
                     return None;
                 }

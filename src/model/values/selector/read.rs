@@ -127,7 +127,10 @@ impl Checker<'_> {
                 let found = self.reader.tree.describe(node);
                 self.reader.wrong(
                     node,
-                    format!("expected the id of a feature, found {found}"),
+                    format!(
+                        "expected the id of a feature in `{}`, found {found}",
+                        rule.key
+                    ),
                     "write an id in quotes, or { kind = … }, { level = … }, { facies = … }",
                 );
                 None

@@ -4,11 +4,15 @@ use glam::DVec3;
 
 use super::HorizonSurface;
 use crate::features::horizon::{Horizon, HorizonError};
+use crate::features::net_horizon::{self, NetHorizonError};
+use crate::features::nets::{Nets, Placement};
+use crate::model::domain::Domain;
 use crate::model::draws::{Key, Rejected, attempt};
 
-/// Draws a horizon; of one that lies above another one, its thickness.
+/// Draws a horizon over a domain; of one that lies above another one, its thickness.
 pub(crate) fn horizon(
     surface: &HorizonSurface,
+    domain: &Domain,
     key: Key<'_>,
 ) -> Result<(Horizon, Vec<(String, f64)>), Rejected> {
     let wrong = |error: HorizonError| ("no horizon", error.to_string());
@@ -36,6 +40,19 @@ pub(crate) fn horizon(
             let dip = draws.quantity(dip_deg, "surface.dipping.dip_deg")?;
             let azimuth = draws.quantity(azimuth_deg, "surface.dipping.azimuth_deg")?;
             Horizon::dipping(through, dip.to_radians(), azimuth.to_radians()).map_err(wrong)
+        }
+        HorizonSurface::Net { net, tolerance } => {
+            let (low, high) = domain.corners();
+            let placement = Placement {
+                at: DVec3::ZERO,
+                azimuth: 0.0,
+            };
+            let nets = Nets::new(std::slice::from_ref(net), placement);
+            let made = nets
+                .map_err(NetHorizonError::from)
+                .and_then(|nets| net_horizon::horizon(&nets, [low, high], *tolerance));
+            let (horizon, _) = made.map_err(|error| ("no horizon", error.to_string()))?;
+            Ok(horizon)
         }
         measured => measured_heights(measured).map_err(wrong),
     })

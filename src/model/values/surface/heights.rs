@@ -108,7 +108,7 @@ impl Checker<'_> {
                 self.reader.wrong(
                     row,
                     format!(
-                        "expected a list for row {} of {name}, found {found}",
+                        "expected a list for row {} of the heights of {name}, found {found}",
                         number + 1
                     ),
                     remedy,
@@ -148,14 +148,7 @@ impl Checker<'_> {
                 None
             }
             Some(field) => field.good().and_then(|(at, tolerance)| {
-                if tolerance <= 0.0 {
-                    self.reader.wrong(
-                        at,
-                        format!("the tolerance of {what} is {tolerance}; it must be above 0"),
-                        "write how far the surface may pass from a point; for heights on a grid use `grid`",
-                    );
-                }
-                (tolerance > 0.0).then_some(tolerance)
+                self.above_nothing(at, tolerance, what).then_some(tolerance)
             }),
         };
         let points = self.scattered_points(node, what);

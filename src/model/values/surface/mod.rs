@@ -1,4 +1,4 @@
-//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, or a thickness above another one.
+//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a control net, or a thickness above another one.
 
 mod draw;
 mod heights;
@@ -10,10 +10,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::quantity::Quantity;
+use crate::features::nets::NamedNet;
 use crate::model::read::{Any, Field};
 
 pub(crate) use draw::horizon;
 pub(crate) use schema::horizon_surface;
+
+/// How far a surface may be from its control net if that is not said (m).
+pub(crate) const NET_TOLERANCE: f64 = 0.01;
 
 /// A surface z(x, y) over the whole domain.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +49,13 @@ pub enum HorizonSurface {
         /// How far from a point the surface may pass, vertically.
         tolerance: f64,
     },
+    /// From a control net, approximated.
+    Net {
+        /// The net, over the whole domain.
+        net: Box<NamedNet>,
+        /// How far from it the surface may be, vertically.
+        tolerance: f64,
+    },
     /// As high above another horizon as a thickness says.
     Above {
         /// Index of the feature that is the other horizon; an older one.
@@ -54,7 +65,7 @@ pub enum HorizonSurface {
     },
 }
 
-/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, or `above` with `thickness`.
+/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, `net`, or `above` with `thickness`.
 #[derive(Deserialize)]
 pub(crate) struct SurfaceFile {
     pub(crate) above: Option<Field<String>>,
@@ -63,6 +74,7 @@ pub(crate) struct SurfaceFile {
     pub(crate) dipping: Option<Field<Any>>,
     pub(crate) grid: Option<Field<Any>>,
     pub(crate) points: Option<Field<Any>>,
+    pub(crate) net: Option<Field<Any>>,
     pub(crate) tolerance: Option<Field<f64>>,
 }
 

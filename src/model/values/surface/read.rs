@@ -1,6 +1,6 @@
-//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points.
+//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a control net.
 
-use super::{DippingFile, HorizonSurface, SurfaceFile};
+use super::{DippingFile, HorizonSurface, NET_TOLERANCE, SurfaceFile};
 use crate::model::checker::{Checker, Extent, Reported};
 use crate::model::draft::Family;
 use crate::model::read::{Any, Field};
@@ -49,6 +49,7 @@ impl Checker<'_> {
             ("dipping", file.dipping.is_some()),
             ("grid", file.grid.is_some()),
             ("points", file.points.is_some()),
+            ("net", file.net.is_some()),
             ("above", file.above.is_some() || file.thickness.is_some()),
         ]
         .iter()
@@ -63,14 +64,15 @@ impl Checker<'_> {
             self.reader.wrong(
                 node,
                 message,
-                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], or of a horizon above = \"…\" with \
+                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], net = { … }, or of a horizon above = \"…\" with \
                  thickness = …",
             );
         }
-        if let (Some(Field::Good(at, _)), None) = (&file.tolerance, &file.points) {
+        let is_approximated = file.points.is_some() || file.net.is_some();
+        if let (Some(Field::Good(at, _)), false) = (&file.tolerance, is_approximated) {
             self.reader.wrong(
                 *at,
-                format!("{what} has a `tolerance` without `points`"),
+                format!("{what} has a `tolerance` without `points` or a `net`"),
                 "remove it: every other form is met exactly",
             );
         }
@@ -79,6 +81,12 @@ impl Checker<'_> {
         let dipping = self.form(file.dipping, |checker, at| checker.dipping(at, what));
         let grid = self.form(file.grid, |checker, at| checker.grid(at, what, extent));
         let tolerance = file.tolerance;
+        if let Some(field) = file.net {
+            let net = self.surface_net(field, tolerance, what);
+            let net = net.filter(|_| forms.len() == 1)?;
+            self.note_beyond(node, &net, what, extent);
+            return Some(net);
+        }
         let points = self.form(file.points, |checker, at| {
             checker.scattered(node, at, tolerance, (what, extent))
         });
@@ -249,6 +257,38 @@ impl Checker<'_> {
         })
     }
 
+    /// A control net, and how far the surface may be from it.
+    fn surface_net(
+        &self,
+        field: Field<Any>,
+        tolerance: Option<Field<f64>>,
+        what: &str,
+    ) -> Option<HorizonSurface> {
+        let net = field.good().and_then(|(at, Any)| self.one_net(at, what));
+        let tolerance = match tolerance {
+            None => Some(NET_TOLERANCE),
+            Some(field) => field.good().and_then(|(at, tolerance)| {
+                self.above_nothing(at, tolerance, what).then_some(tolerance)
+            }),
+        };
+        Some(HorizonSurface::Net {
+            net: Box::new(net?),
+            tolerance: tolerance?,
+        })
+    }
+
+    /// Whether a tolerance is above 0; else that is told.
+    pub(super) fn above_nothing(&self, at: NodeId, tolerance: f64, what: &str) -> bool {
+        if tolerance <= 0.0 {
+            self.reader.wrong(
+                at,
+                format!("the tolerance of {what} is {tolerance}; it must be above 0"),
+                "write how far the surface may pass from a point, or from its net; for heights on a grid use `grid`",
+            );
+        }
+        tolerance > 0.0
+    }
+
     /// Says so if nothing of a surface lies in the domain.
     fn note_beyond(&mut self, node: NodeId, surface: &HorizonSurface, what: &str, extent: Extent) {
         let Extent {
@@ -284,6 +324,13 @@ impl Checker<'_> {
             }
             HorizonSurface::Grid { heights, .. } => heights.concat(),
             HorizonSurface::Points { points, .. } => points.iter().map(|point| point[2]).collect(),
+            HorizonSurface::Net { net, .. } => net
+                .net
+                .points
+                .iter()
+                .flatten()
+                .map(|point| point.z)
+                .collect(),
         };
         let turned = heights.iter().any(|z| (base..=top).contains(&-z));
         let remedy = if turned {

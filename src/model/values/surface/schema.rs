@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::{DippingFile, GridFile, HorizonSurface};
 use crate::model::tables::{forms, object};
+use crate::model::values::nets::NetFile;
 use crate::model::values::quantity::Quantity;
 
 impl JsonSchema for HorizonSurface {
@@ -53,7 +54,7 @@ fn heights(generator: &mut SchemaGenerator, [grid, points]: [&str; 2]) -> Map<St
         "minItems": 3,
     });
     let tolerance = json!({
-        "description": "How far the surface may pass above or below a point, in metres.",
+        "description": "How far the surface may pass above or below a point, or a net, in metres.",
         "type": "number", "exclusiveMinimum": 0,
     });
     object(json!({ "grid": grid, "points": points, "tolerance": tolerance }))
@@ -79,18 +80,24 @@ fn surface(generator: &mut SchemaGenerator, isochore: Map<String, Value>) -> Sch
             "Scattered points [x, y, z]",
         ],
     ));
+    let net = about(
+        "A control net over the whole domain with one elevation above every place; the surface is within `tolerance` of it (0.01 if left out).",
+        generator.subschema_for::<NetFile>(),
+    );
+    keys.insert("net".to_owned(), net.to_value());
     let mut telling: Vec<(&str, &[&str])> = vec![
         ("level", &[]),
         ("dipping", &[]),
         ("grid", &[]),
         ("points", &["tolerance"]),
+        ("net", &[]),
     ];
     if !isochore.is_empty() {
         telling.push(("above", &["thickness"]));
     }
     keys.extend(isochore);
     let mut table = forms(
-        "A surface over the whole domain: level, dipping, a grid of heights, or scattered points.",
+        "A surface over the whole domain: level, dipping, a grid of heights, scattered points, or a control net.",
         &keys,
         &telling,
     );
@@ -100,6 +107,7 @@ fn surface(generator: &mut SchemaGenerator, isochore: Map<String, Value>) -> Sch
         { "dipping": { "through": [0, 0, -20], "dip_deg": 1, "azimuth_deg": 90 } },
         { "grid": { "x": [0, 400], "y": [0, 700], "heights": [[-20, -21], [-22, -22]] } },
         { "points": [[0, 0, -21], [400, 0, -20], [0, 700, -22]], "tolerance": 0.1 },
+        { "net": { "points": [[[-10, -10, -21], [-10, 710, -22]], [[410, -10, -20], [410, 710, -24]]] } },
     ]);
     table.insert("examples".to_owned(), examples);
     table.into()
