@@ -54,8 +54,8 @@ const OVERSHOOT: f64 = 0.0923;
 const MOUTH: [f64; 3] = [2.0, 0.4, 0.15];
 /// Places at which the width is looked at.
 const CHECKS: usize = 64;
-/// Pieces of the channel's section among which the one over the levee's root is looked for.
-const ROOT_STEPS: usize = 400;
+/// Pieces of the channel's section among which those over the levee's root are looked for, and how often each is halved then.
+const ROOT_STEPS: [usize; 2] = [40, 8];
 
 /// Greatest exponent of the top: that of the highest degree that the kernels take.
 pub const MOST_TAPER: usize = 5;
@@ -359,17 +359,29 @@ impl Size {
         let points = reach.base(station.fraction)?;
         let base = reach.across()?.curve(&points)?;
         let x = self.side * (0.5 * self.channel + root.x);
+        let [steps, halvings] = ROOT_STEPS;
+        let at = |k: f64| base.point(k / steps as f64).truncate();
         // The lowest place of the base there: banks may overhang.
-        let steps: Vec<DVec2> = (0..=ROOT_STEPS)
-            .map(|k| base.point(k as f64 / ROOT_STEPS as f64).truncate())
-            .collect();
-        let over = |pair: &&[DVec2]| (pair[0].x - x) * (pair[1].x - x) <= 0.0;
-        let channel = steps
-            .windows(2)
-            .filter(over)
-            .fold(0.0_f64, |deepest, pair| {
-                deepest.max(-pair[0].y.max(pair[1].y))
-            });
+        let mut channel = 0.0_f64;
+        let mut low = (0.0, at(0.0));
+        for k in 1..=steps {
+            let mut high = (k as f64, at(k as f64));
+            let next = high;
+            let are_around = |low: DVec2, high: DVec2| (low.x - x) * (high.x - x) <= 0.0;
+            if are_around(low.1, high.1) {
+                for _ in 0..halvings {
+                    let middle = 0.5 * (low.0 + high.0);
+                    let point = at(middle);
+                    if are_around(low.1, point) {
+                        high = (middle, point);
+                    } else {
+                        low = (middle, point);
+                    }
+                }
+                channel = channel.max(-low.1.y.max(high.1.y));
+            }
+            low = next;
+        }
         if channel > -root.y {
             return Ok(());
         }

@@ -26,6 +26,9 @@ const ALONG: usize = 192;
 const SHELLS: [f64; 3] = [0.3, 0.6, 0.9];
 /// Points of an open sheet in u and v: most of it may lie beyond the domain.
 const OF_SHEET: usize = 96;
+/// From one point to the next one that is looked at, as a part of all: by the golden section every part of a body is soon looked at,
+/// and mostly one point in a few is where it should be.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 /// How far beside a sheet, as a fraction of the domain's diagonal: less than any bed is thick.
 const BESIDE: f64 = 1e-7;
 /// Points of the domain in x, y and z.
@@ -301,7 +304,7 @@ fn points_of_trough(trough: &Trough) -> impl Iterator<Item = DVec3> + '_ {
     let (v0, v1) = base.knots_v().domain();
     let part = |i: usize, n: usize| (i as f64 + 0.5) / n as f64;
     let [across, up] = ACROSS;
-    (0..ALONG * across).flat_map(move |at| {
+    scattered(ALONG * across).flat_map(move |at| {
         let v = v0 + (v1 - v0) * part(at / across, ALONG);
         let u = part(at % across, across);
         let (low, high) = (
@@ -316,7 +319,7 @@ fn points_of_trough(trough: &Trough) -> impl Iterator<Item = DVec3> + '_ {
 fn beside(sheet: &Surface, distance: f64) -> impl Iterator<Item = DVec3> + '_ {
     let ((u0, u1), (v0, v1)) = (sheet.knots_u().domain(), sheet.knots_v().domain());
     let part = |i: usize| (i as f64 + 0.5) / OF_SHEET as f64;
-    (0..OF_SHEET * OF_SHEET).flat_map(move |at| {
+    scattered(OF_SHEET * OF_SHEET).flat_map(move |at| {
         let (u, v) = (
             u0 + (u1 - u0) * part(at % OF_SHEET),
             v0 + (v1 - v0) * part(at / OF_SHEET),
@@ -325,6 +328,20 @@ fn beside(sheet: &Surface, distance: f64) -> impl Iterator<Item = DVec3> + '_ {
         let normal = sheet.normal(u, v).unwrap_or(DVec3::Z) * distance;
         [point - normal, point + normal]
     })
+}
+
+/// All numbers below one, each once, and those that follow each other far apart.
+fn scattered(count: usize) -> impl Iterator<Item = usize> {
+    let least = (GOLDEN * count as f64) as usize;
+    let has_no_common_divisor = |step: &usize| {
+        let (mut a, mut b) = (count, *step);
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a == 1
+    };
+    let step = (least..).find(has_no_common_divisor).unwrap_or(1);
+    (0..count).map(move |k| k * step % count)
 }
 
 /// To a millimetre, and without a negative zero.

@@ -48,7 +48,7 @@ pub(super) struct Chords {
 
 impl Chords {
     /// Of two patches, and of a little around them as a fraction of their parameters; `None` if no parameter is known to be one.
-    pub(super) fn new(a: &Facet<'_>, b: &Facet<'_>, slack: f64) -> Option<Self> {
+    pub(super) fn new(a: &Facet, b: &Facet, slack: f64) -> Option<Self> {
         let is_monotone = by_cones([a.cones, b.cones], slack);
         Self::with(is_monotone, [a, b], slack)
     }
@@ -56,7 +56,7 @@ impl Chords {
     /// Of two patches one of which goes on behind a border, where one of the four parameters ends: with the cones of all of both, and
     /// how far it goes on.
     pub(super) fn going_on(
-        [a, b]: [&Facet<'_>; 2],
+        [a, b]: [&Facet; 2],
         cones: [Cones; 2],
         parameter: usize,
         end: f64,
@@ -68,17 +68,12 @@ impl Chords {
     }
 
     /// The same by slopes: for sheets that are nearly parallel.
-    pub(super) fn of_slopes(
-        frame: &Frame,
-        a: &Facet<'_>,
-        b: &Facet<'_>,
-        slack: f64,
-    ) -> Option<Self> {
+    pub(super) fn of_slopes(frame: &Frame, a: &Facet, b: &Facet, slack: f64) -> Option<Self> {
         let is_monotone = by_slopes(frame, [a, b], slack)?;
         Self::with(is_monotone, [a, b], slack)
     }
 
-    fn with(is_monotone: [bool; 4], [a, b]: [&Facet<'_>; 2], slack: f64) -> Option<Self> {
+    fn with(is_monotone: [bool; 4], [a, b]: [&Facet; 2], slack: f64) -> Option<Self> {
         if is_monotone == [false; 4] {
             return None;
         }
@@ -246,7 +241,7 @@ pub(super) struct Frame {
 
 impl Frame {
     /// Of two patches; `None` if normals at their corners tell that none of their parameters would be found so.
-    pub(super) fn of(a: &Facet<'_>, b: &Facet<'_>) -> Option<Self> {
+    pub(super) fn of(a: &Facet, b: &Facet) -> Option<Self> {
         let [(one, _), (other, _)] = [a.cones.normals?, b.cones.normals?];
         let other = if one.dot(other) < 0.0 { -other } else { other };
         let upright = (one + other).try_normalize()?;
@@ -259,7 +254,7 @@ impl Frame {
 
 fn by_slopes(
     &Frame { upright, along }: &Frame,
-    facets: [&Facet<'_>; 2],
+    facets: [&Facet; 2],
     slack: f64,
 ) -> Option<[bool; 4]> {
     let across = upright.cross(along);

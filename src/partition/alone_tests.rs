@@ -94,7 +94,7 @@ impl Scene {
         Found {
             doubts: search.undecided + search.uncertain + usize::from(search.gave_up()),
             certain: search.certain,
-            branches: search.branches,
+            branches: search.branches(),
         }
     }
 
@@ -135,7 +135,7 @@ impl Scene {
     }
 
     /// The parts of both sheets over two rectangles of their plan.
-    fn parts(&self, rectangles: [[[f64; 2]; 2]; 2]) -> [Facet<'static>; 2] {
+    fn parts(&self, rectangles: [[[f64; 2]; 2]; 2]) -> [Facet; 2] {
         let knots =
             |[low, high]: [f64; 2]| KnotVector::new(3, [[low; 4], [high; 4]].concat()).unwrap();
         std::array::from_fn(|side| {
@@ -151,12 +151,7 @@ impl Scene {
             };
             let net = (0..16).map(place).collect();
             let surface = Surface::new(knots(x), knots(y), net).unwrap();
-            let facet = Sheet::new(surface, side).unwrap();
-            let facet = facet.facet(0);
-            Facet {
-                patch: std::borrow::Cow::Owned(facet.patch.into_owned()),
-                cones: facet.cones,
-            }
+            Sheet::new(surface, side).unwrap().facet(0).into_owned()
         })
     }
 }
@@ -201,7 +196,7 @@ fn through(found: &Found, at: DVec2) -> (&Branch, f64) {
 }
 
 /// Whether any certificate is given for a curve on whole patches.
-fn is_certified(facets: &[Facet<'_>; 2], branch: &Branch, t: f64) -> bool {
+fn is_certified(facets: &[Facet; 2], branch: &Branch, t: f64) -> bool {
     let [a, b] = facets;
     let frame = Frame::of(a, b);
     let mut all = [BORDER, 0.02].into_iter().flat_map(|slack| {

@@ -358,7 +358,7 @@ fn follow(
             certain: search.certain,
             uncertain: search.uncertain,
         };
-        search.branches
+        search.branches()
     };
     let first_new = branches
         .iter()

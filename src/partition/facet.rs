@@ -1,17 +1,39 @@
 //! Patches, or parts of them, with the directions of their tangents and normals.
 
-use std::borrow::Cow;
+use std::sync::OnceLock;
 
 use super::bounds::Bounds;
-use super::patch::{Cones, Patch};
+use super::patch::{Along, Cones, Patch};
+
+/// Halves are kept down to this many halvings of a sheet's patch. One patch crosses many others, and parts of it are asked for
+/// again and again; below, there are so many that few are asked for twice.
+const KEPT: u8 = 5;
 
 /// A patch of a sheet, or a part of one.
-pub(super) struct Facet<'a> {
-    pub(super) patch: Cow<'a, Patch>,
+#[derive(Clone, Debug)]
+pub(super) struct Facet {
+    pub(super) patch: Patch,
     pub(super) cones: Cones,
+    /// How many halvings below a sheet's patch it is.
+    depth: u8,
+    halves: OnceLock<Box<[Self; 2]>>,
 }
 
-impl Facet<'_> {
+impl Facet {
+    /// A patch of a sheet.
+    pub(super) fn new(patch: Patch) -> Self {
+        Self::at(0, patch)
+    }
+
+    fn at(depth: u8, patch: Patch) -> Self {
+        Self {
+            cones: patch.cones(),
+            patch,
+            depth,
+            halves: OnceLock::new(),
+        }
+    }
+
     /// The sine of the normals' greatest angle from their axis.
     pub(super) fn lean(&self) -> f64 {
         self.cones
@@ -24,20 +46,35 @@ impl Facet<'_> {
         &self,
         box_is_wanted: impl Fn(&Bounds) -> bool,
         is_wanted: impl Fn(&Patch) -> bool,
-        mut each: impl FnMut(&Facet<'static>),
+        mut each: impl FnMut(&Self),
     ) {
-        let along = if self.cones.normals.is_some() {
+        if self.depth < KEPT {
+            for half in self.halves() {
+                if box_is_wanted(&half.patch.bounds) && is_wanted(&half.patch) {
+                    each(half);
+                }
+            }
+        } else {
+            self.patch.halve(self.along(), box_is_wanted, |half| {
+                if is_wanted(&half) {
+                    each(&Self::at(KEPT, half));
+                }
+            });
+        }
+    }
+
+    fn along(&self) -> Along {
+        if self.cones.normals.is_some() {
             self.patch.longer()
         } else {
             self.patch.rounder()
-        };
-        self.patch.halve(along, box_is_wanted, |half| {
-            if is_wanted(&half) {
-                each(&Facet {
-                    cones: half.cones(),
-                    patch: Cow::Owned(half),
-                });
-            }
-        });
+        }
+    }
+
+    fn halves(&self) -> &[Self; 2] {
+        self.halves.get_or_init(|| {
+            let halves = self.patch.halves(self.along());
+            Box::new(halves.map(|half| Self::at(self.depth + 1, half)))
+        })
     }
 }

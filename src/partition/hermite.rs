@@ -1,6 +1,8 @@
 //! Computed curves: pieces of degree 5 through points of an intersection, with its first and second
 //! derivatives by arc length. One parameter serves the curve in space and its images on both sheets.
 
+use std::ops::Range;
+
 use glam::{DVec2, DVec3};
 
 /// What runs along a curve: x, y, z, then (u, v) on the first sheet, then (u, v) on the second.
@@ -300,8 +302,18 @@ impl Branch {
 
     /// The parameter of the nearest point to one, and its distance, if that is less than a given one.
     pub(super) fn nearest(&self, p: DVec3, within: f64) -> Option<(f64, f64)> {
+        self.nearest_of(0..self.pieces(), p, within)
+    }
+
+    /// The same of some pieces.
+    pub(super) fn nearest_of(
+        &self,
+        pieces: Range<usize>,
+        p: DVec3,
+        within: f64,
+    ) -> Option<(f64, f64)> {
         let mut best = (f64::NAN, within);
-        for piece in 0..self.pieces() {
+        for piece in pieces {
             let length = self.lengths[piece + 1] - self.lengths[piece];
             let from = self.nodes[piece].point();
             let reach = best.1 + 1.5 * length;

@@ -34,6 +34,7 @@ mod faces;
 mod facet;
 mod heights;
 mod hermite;
+mod known;
 mod landing;
 mod linear;
 mod march;

@@ -208,26 +208,41 @@ impl Patch {
         wanted: impl Fn(&Bounds) -> bool,
         mut each: impl FnMut(Self),
     ) {
+        for mut half in self.bare_halves(along) {
+            if wanted(&half.bounds) {
+                half.measure();
+                each(half);
+            }
+        }
+    }
+
+    /// Its two halves.
+    pub(super) fn halves(&self, along: Along) -> [Self; 2] {
+        self.bare_halves(along).map(|mut half| {
+            half.measure();
+            half
+        })
+    }
+
+    /// Its halves with their boxes; what they are thin across is not known yet.
+    fn bare_halves(&self, along: Along) -> [Self; 2] {
         let [u, v] = self.middle();
         let (u, v) = match along {
             Along::U => ([[self.u[0], u], [u, self.u[1]]], [self.v; 2]),
             Along::V => ([self.u; 2], [[self.v[0], v], [v, self.v[1]]]),
         };
-        for (k, net) in self.half_nets(along).into_iter().enumerate() {
-            let bounds = Bounds::of(points(&net, self.rational));
-            if !wanted(&bounds) {
-                continue;
-            }
-            let mut half = Self {
+        let mut k = 0;
+        self.half_nets(along).map(|net| {
+            let half = Self {
+                bounds: Bounds::of(points(&net, self.rational)),
                 net,
                 u: u[k],
                 v: v[k],
-                bounds,
                 ..*self
             };
-            half.measure();
-            each(half);
-        }
+            k += 1;
+            half
+        })
     }
 
     /// The part of it over a rectangle of its parameters; of its box nothing is known.

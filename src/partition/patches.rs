@@ -9,7 +9,8 @@ use glam::{DVec3, DVec4};
 use smallvec::SmallVec;
 
 use super::bounds::Bounds;
-use super::patch::{self, Cones, Patch};
+use super::facet::Facet;
+use super::patch::{self, Patch};
 use crate::nurbs::Surface;
 
 /// Height fields with more patches than this are not kept as patches.
@@ -18,8 +19,8 @@ const MANY: usize = 20_000;
 /// The patches of a sheet, u-major.
 #[derive(Clone, Debug)]
 pub(super) enum Patches {
-    /// All of them, with the cones that hold their directions.
-    Kept(Vec<Patch>, Vec<Cones>),
+    /// All of them.
+    Kept(Vec<Facet>),
     /// Control points from which they are made.
     Made(Heights),
 }
@@ -65,16 +66,16 @@ impl Patches {
                     .copied()
                     .collect();
                 let (u, v) = ([u[0], u[1]], [v[0], v[1]]);
-                patches.push(Patch::new(degrees[0] + 1, &net, &weights, u, v));
+                let patch = Patch::new(degrees[0] + 1, &net, &weights, u, v);
+                patches.push(Facet::new(patch));
             }
         }
-        let cones = patches.iter().map(Patch::cones).collect();
-        Self::Kept(patches, cones)
+        Self::Kept(patches)
     }
 
     pub(super) fn get(&self, at: usize) -> Cow<'_, Patch> {
         match self {
-            Self::Kept(patches, _) => Cow::Borrowed(&patches[at]),
+            Self::Kept(patches) => Cow::Borrowed(&patches[at].patch),
             Self::Made(heights) => Cow::Owned(heights.patch(at).measured()),
         }
     }
@@ -82,25 +83,23 @@ impl Patches {
     /// A patch of which only points and derivatives are asked for.
     pub(super) fn bare(&self, at: usize) -> Cow<'_, Patch> {
         match self {
-            Self::Kept(patches, _) => Cow::Borrowed(&patches[at]),
+            Self::Kept(patches) => Cow::Borrowed(&patches[at].patch),
             Self::Made(heights) => Cow::Owned(heights.patch(at)),
         }
     }
 
-    /// A patch with the cones that hold its directions.
-    pub(super) fn with_cones(&self, at: usize) -> (Cow<'_, Patch>, Cones) {
-        let patch = self.get(at);
-        let cones = match self {
-            Self::Kept(_, cones) => cones[at],
-            Self::Made(_) => patch.cones(),
-        };
-        (patch, cones)
+    /// A patch with the directions of its tangents and normals.
+    pub(super) fn facet(&self, at: usize) -> Cow<'_, Facet> {
+        match self {
+            Self::Kept(patches) => Cow::Borrowed(&patches[at]),
+            Self::Made(heights) => Cow::Owned(Facet::new(heights.patch(at).measured())),
+        }
     }
 
     /// The box of a patch.
     pub(super) fn bounds(&self, at: usize) -> Bounds {
         match self {
-            Self::Kept(patches, _) => patches[at].bounds,
+            Self::Kept(patches) => patches[at].patch.bounds,
             Self::Made(heights) => heights.patch(at).measured().bounds,
         }
     }
@@ -175,14 +174,14 @@ mod tests {
         let distinct = [distinct(&u), distinct(&v)];
         let made = Patches::of(&surface, &distinct, true);
         let kept = Patches::of(&surface, &distinct, false);
-        assert!(matches!(made, Patches::Made(_)) && matches!(kept, Patches::Kept(..)));
+        assert!(matches!(made, Patches::Made(_)) && matches!(kept, Patches::Kept(_)));
         for at in [0, 139, 140, 8_888, 150 * 140 - 1] {
-            let (made, made_cones) = made.with_cones(at);
-            let (kept, kept_cones) = kept.with_cones(at);
+            let [made, kept] = [&made, &kept].map(|patches| patches.facet(at));
+            let [made_normals, kept_normals] =
+                [&made, &kept].map(|facet| facet.cones.normals.unwrap());
+            let [made, kept] = [&made.patch, &kept.patch];
             assert_eq!((made.u, made.v), (kept.u, kept.v));
             assert!(made.slab().0.distance(kept.slab().0) < 1e-12);
-            let [made_normals, kept_normals] =
-                [made_cones, kept_cones].map(|cones| cones.normals.unwrap());
             assert!(made_normals.0.distance(kept_normals.0) < 1e-13);
             assert!((made_normals.1 - kept_normals.1).abs() < 1e-13);
             let (u, v) = (

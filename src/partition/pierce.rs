@@ -1,7 +1,5 @@
 //! Where a curve passes through a sheet.
 
-use std::borrow::Cow;
-
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 use smallvec::SmallVec;
 
@@ -9,7 +7,7 @@ use super::bounds::Bounds;
 use super::cone::cone;
 use super::facet::Facet;
 use super::pair::Tolerances;
-use super::patch::{Cones, Patch};
+use super::patch::Patch;
 use super::sheet::{NodeKind, Sheet};
 use super::solve::solve;
 
@@ -220,8 +218,7 @@ impl<'a> Piercing<'a> {
         match node.kind {
             _ if near.is_empty() => {}
             NodeKind::Leaf(patch) => {
-                let facet = self.sheet.facet(patch);
-                self.patches(&facet.patch, &|| facet.cones, &near);
+                self.patches(&self.sheet.facet(patch), &near);
             }
             NodeKind::Pair(a, b) => {
                 self.nodes(a, &near);
@@ -230,31 +227,28 @@ impl<'a> Piercing<'a> {
         }
     }
 
-    /// Halves a patch once for all segments that are much smaller. Its cones are asked for when it is small enough.
-    fn patches(&mut self, patch: &Patch, cones: &dyn Fn() -> Cones, near: &[usize]) {
+    /// Halves a patch once for all segments that are much smaller.
+    fn patches(&mut self, facet: &Facet, near: &[usize]) {
         let segments = self.segments;
-        let may_pass = |at: &usize| segments[*at].may_pass(patch);
+        let may_pass = |at: &usize| segments[*at].may_pass(&facet.patch);
         let near: Few = near.iter().copied().filter(may_pass).collect();
         let size = |at: &usize| segments[*at].bounds.extent();
         let longest = near.iter().map(size).fold(0.0, f64::max);
-        if near.len() > 1 && patch.bounds.extent() > RATIO * longest {
-            let wanted = |bounds: &Bounds| near.iter().any(|at| segments[*at].bounds.meets(bounds));
-            patch.halve(patch.longer(), wanted, |half| {
-                self.patches(&half, &|| half.cones(), &near);
-            });
-        } else if !near.is_empty() {
-            let facet = Facet {
-                patch: Cow::Borrowed(patch),
-                cones: cones(),
-            };
+        if near.len() > 1 && facet.patch.bounds.extent() > RATIO * longest {
+            facet.halve(
+                |bounds| near.iter().any(|at| segments[*at].bounds.meets(bounds)),
+                |_| true,
+                |half| self.patches(half, &near),
+            );
+        } else {
             for at in near {
                 self.segment = at;
-                self.pieces(&segments[at], &facet);
+                self.pieces(&segments[at], facet);
             }
         }
     }
 
-    fn pieces(&mut self, segment: &Segment, facet: &Facet<'_>) {
+    fn pieces(&mut self, segment: &Segment, facet: &Facet) {
         if self.undecided >= ENOUGH {
             return;
         }

@@ -11,6 +11,7 @@ use super::alone::{BORDER, Chords, Frame};
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, End, Node};
+use super::known::Known;
 use super::linear::{self, Guess};
 use super::pair::{Closing, PARALLEL, Pair, lies};
 use super::patch::Patch;
@@ -26,8 +27,10 @@ const MOST: usize = 400_000;
 const ENOUGH: usize = 64;
 /// Sheets that cross at more than this sine do not touch nearby.
 const STEEP: f64 = 0.1;
-/// Normals that lean less than this sine are flat enough for one attempt.
+/// Normals that lean less than this sine are flat enough for one attempt to land …
 const FLAT: f64 = 0.35;
+/// … and if less than this they may tell that a known curve is alone.
+const BENT: f64 = 0.7;
 /// A place this fraction of the patches' size beside them is on them.
 const BESIDE: f64 = 0.02;
 /// By this fraction of a patch's size another one beside it is looked at, too, where a curve runs along their border …
@@ -50,7 +53,7 @@ pub(super) struct Search<'a, F> {
     around: Bounds,
     /// Sheets nearer than curves are computed to are not apart: they touch.
     slack: f64,
-    pub(super) branches: Vec<Branch>,
+    known: Vec<Known>,
     pub(super) found: F,
     /// Whether both regions may matter at a place; elsewhere sheets may come as near as they like.
     matters: &'a dyn Fn(DVec3) -> bool,
@@ -101,7 +104,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             slack: pair.tolerances.curve + lifted.map_or(0.0, |lifted| lifted.slack()),
             pair,
             clip,
-            branches,
+            known: branches.into_iter().map(Known::new).collect(),
             found,
             matters,
             twins: false,
@@ -110,6 +113,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             uncertain: 0,
             halvings: 0,
         }
+    }
+
+    /// All curves that are known.
+    pub(super) fn branches(self) -> Vec<Branch> {
+        self.known.into_iter().map(|known| known.branch).collect()
     }
 
     pub(super) fn run(&mut self) {
@@ -152,7 +160,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
     }
 
-    fn patches(&mut self, a: &Facet<'_>, b: &Facet<'_>) {
+    fn patches(&mut self, a: &Facet, b: &Facet) {
         self.halvings += 1;
         if self.halvings > MOST || self.undecided + self.uncertain >= ENOUGH || self.is_outside(a) {
             return;
@@ -162,10 +170,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let least = LEAST * self.pair.tolerances.scale;
         let is_small = size_a < least && size_b < least;
         let is_flat = a.lean() < FLAT && b.lean() < FLAT;
-        if is_flat {
+        let is_bent = a.lean() >= BENT || b.lean() >= BENT;
+        if is_flat || !is_bent && !is_small {
             match self.flat(a, b, is_small) {
                 Verdict::Apart | Verdict::Known => return,
-                Verdict::Doubtful if self.runs_along(a, b) => {
+                Verdict::Doubtful if is_flat && self.runs_along(a, b) => {
                     self.certain += 1;
                     return;
                 }
@@ -222,8 +231,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         );
     }
 
-    /// What is known of two nearly flat patches.
-    fn flat(&mut self, a: &Facet<'_>, b: &Facet<'_>, is_small: bool) -> Verdict {
+    /// What is known of two patches that are not bent by much.
+    fn flat(&mut self, a: &Facet, b: &Facet, is_small: bool) -> Verdict {
         // A curve that passes beside the smallest patches passes through what is around them.
         let beside = if is_small { BESIDE } else { BORDER };
         let guess = linear::guess(&a.patch, &b.patch, BESIDE);
@@ -243,10 +252,16 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if by_cones.is_none() && frame.is_none() {
             return Verdict::Open;
         }
+        let may_land = a.lean() < FLAT && b.lean() < FLAT;
         let place = match guess {
-            Guess::Meet(..) => self.locate(a, b, &guess, BESIDE),
+            Guess::Meet(..) if may_land => self.locate(a, b, &guess, BESIDE),
+            Guess::Meet(..) => self.passing(a, b, BESIDE),
             _ => None,
         };
+        // Bent ones are halved anyway, unless a known curve is seen to be alone there.
+        if !may_land && place.is_none() {
+            return Verdict::Open;
+        }
         let by_slopes = || Chords::of_slopes(frame.as_ref()?, a, b, beside);
         let Some(place) = place else {
             // The halves of others are asked in any case.
@@ -262,7 +277,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         };
         let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
         match self.follow(place) {
-            Some((branch, t)) if chords.has_only(&self.branches[branch], t, lengths) => {
+            Some((branch, t)) if chords.has_only(&self.known[branch].branch, t, lengths) => {
                 self.certain += 1;
                 Verdict::Known
             }
@@ -272,7 +287,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// Whether a curve along a border of one of two patches, on either side of it, is all that the two have in common: with a
     /// strip of the sheet behind that border it never leaves through it.
-    fn runs_along(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+    fn runs_along(&self, a: &Facet, b: &Facet) -> bool {
         if !(a.lean() < STRAIGHT && b.lean() < STRAIGHT) {
             return false;
         }
@@ -283,7 +298,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return false;
         };
         let ranges = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
-        let q = self.branches[branch].value(t);
+        let q = self.known[branch].branch.value(t);
         (0..4).any(|k| {
             let [low, high] = ranges[k];
             let reach = STRIP * (high - low);
@@ -299,7 +314,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     /// Whether a curve is alone on two patches and on a strip of a sheet behind a border, where one of the parameters ends.
     fn is_alone_beyond(
         &self,
-        facets: [&Facet<'_>; 2],
+        facets: [&Facet; 2],
         parameter: usize,
         [border, end]: [f64; 2],
         (branch, t): (usize, f64),
@@ -325,12 +340,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         cones[side] = own.cones_with(&strip);
         let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
         Chords::going_on(facets, cones, parameter, end)
-            .is_some_and(|chords| chords.has_only(&self.branches[branch], t, lengths))
+            .is_some_and(|chords| chords.has_only(&self.known[branch].branch, t, lengths))
     }
 
     /// Whether a known curve ends on a border so near to two of the smallest patches that these are not apart yet. Where some
     /// parameter grows along all chords there is no room for another one.
-    fn is_beside_an_end(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+    fn is_beside_an_end(&self, a: &Facet, b: &Facet) -> bool {
         if Chords::new(a, b, BESIDE).is_none() {
             return false;
         }
@@ -345,7 +360,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             let reach = || (6.0 * self.slack / (end.sine * self.leaving(end))).min(most);
             is_root && end.point().distance(point) < size + reach()
         };
-        let mut branches = self.branches.iter();
+        let mut branches = self.known.iter().map(|known| &known.branch);
         branches.any(|branch| is_near(branch, 0) || is_near(branch, 1))
     }
 
@@ -366,19 +381,19 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// Counts a pair of the smallest patches of which not all is known.
-    fn doubt(&mut self, a: &Facet<'_>) {
+    fn doubt(&mut self, a: &Facet) {
         self.uncertain += usize::from(self.counts(a));
     }
 
     /// Whether it matters what the sheets do at one of the smallest patches of the first.
-    fn counts(&self, a: &Facet<'_>) -> bool {
+    fn counts(&self, a: &Facet) -> bool {
         let [u, v] = a.patch.middle();
         // Where the sheet is: what is halved may be lifted.
         (self.matters)(self.pair.sheets[0].point(u, v))
     }
 
     /// Whether a part of the first sheet that was lifted into the box is not there itself.
-    fn is_outside(&self, a: &Facet<'_>) -> bool {
+    fn is_outside(&self, a: &Facet) -> bool {
         if self.pair.lifted.is_none() || a.lean() >= STRAIGHT {
             return false;
         }
@@ -391,32 +406,19 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
-    fn locate(&self, a: &Facet<'_>, b: &Facet<'_>, guess: &Guess, beside: f64) -> Option<Place> {
-        let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
-        let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
-        let within = grown(beside);
-        // Rather a node well inside than one beside.
-        let mut beside = None;
-        for (at, branch) in self.branches.iter().enumerate() {
-            for (node, length) in branch.nodes.iter().zip(&branch.lengths) {
-                let q = node.parameters();
-                if lies(&q, &within) {
-                    if lies(&q, &rectangles) {
-                        return Some(Place::On(at, *length));
-                    }
-                    beside = beside.or(Some(Place::On(at, *length)));
-                }
-            }
-        }
-        if beside.is_some() {
-            return beside;
+    fn locate(&self, a: &Facet, b: &Facet, guess: &Guess, beside: f64) -> Option<Place> {
+        let known = self.passing(a, b, beside);
+        if known.is_some() {
+            return known;
         }
         let Guess::Meet(mut q, tangent, point) = *guess else {
             return None;
         };
+        let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
+        let grown = |by: f64| rectangles.map(|[low, high]| grow(low, high, by));
         let closing = Closing::Plane(tangent, point);
         let landed =
-            self.pair.newton_within(&mut q, closing, 10, &grown(REACH)) && lies(&q, &within);
+            self.pair.newton_within(&mut q, closing, 10, &grown(REACH)) && lies(&q, &grown(beside));
         if !landed {
             return None;
         }
@@ -426,6 +428,25 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         }
         let node = self.pair.node(q, None)?;
         Some(self.traced(&node).unwrap_or(Place::New(node)))
+    }
+
+    /// A node of a known curve on two patches, or else a little beside them.
+    fn passing(&self, a: &Facet, b: &Facet, beside: f64) -> Option<Place> {
+        let rectangles = [a.patch.u, a.patch.v, b.patch.u, b.patch.v];
+        let within = rectangles.map(|[low, high]| grow(low, high, beside));
+        let mut near = None;
+        for (at, known) in self.known.iter().enumerate() {
+            for (node, length) in known.nodes_near(&within) {
+                let q = known.branch.nodes[node].parameters();
+                if lies(&q, &rectangles) {
+                    return Some(Place::On(at, length));
+                }
+                if near.is_none() && lies(&q, &within) {
+                    near = Some(Place::On(at, length));
+                }
+            }
+        }
+        near
     }
 
     /// The branch through a place and the place's parameter on it; `None` if it cannot be followed.
@@ -439,13 +460,13 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return None;
         };
         let t = branch.project(node.point()).0;
-        self.branches.push(branch);
-        Some((self.branches.len() - 1, t))
+        self.known.push(Known::new(branch));
+        Some((self.known.len() - 1, t))
     }
 
     /// Whether two of the smallest patches are only near a known curve that is no contact: beside a pole, parameters
     /// tell little about where a place is.
-    fn passes_by(&self, a: &Facet<'_>, b: &Facet<'_>) -> bool {
+    fn passes_by(&self, a: &Facet, b: &Facet) -> bool {
         let ([u, v], [s, t]) = (a.patch.middle(), b.patch.middle());
         let mut q = [u, v, s, t];
         let Some(node) = self.pair.node(q, None) else {
@@ -469,11 +490,11 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     fn traced(&self, node: &Node) -> Option<Place> {
         let near = (6.0 * self.pair.tolerances.curve / node.sine.max(PARALLEL))
             .max(1e2 * self.pair.tolerances.curve);
-        let passes = |(at, branch): (usize, &Branch)| {
-            let (t, _) = branch.nearest(node.point(), near)?;
+        let passes = |(at, known): (usize, &Known)| {
+            let t = known.nearest(node.point(), near)?;
             Some(Place::On(at, t))
         };
-        self.branches.iter().enumerate().find_map(passes)
+        self.known.iter().enumerate().find_map(passes)
     }
 
     /// Whether the search was given up.

@@ -174,9 +174,8 @@ impl Sheet {
     }
 
     /// A patch with its tangents and normals.
-    pub(super) fn facet(&self, at: usize) -> Facet<'_> {
-        let (patch, cones) = self.patches.with_cones(at);
-        Facet { patch, cones }
+    pub(super) fn facet(&self, at: usize) -> Cow<'_, Facet> {
+        self.patches.facet(at)
     }
 
     /// All patches, u-major.
