@@ -26,9 +26,6 @@ const ALONG: usize = 192;
 const SHELLS: [f64; 3] = [0.3, 0.6, 0.9];
 /// Points of an open sheet in u and v: most of it may lie beyond the domain.
 const OF_SHEET: usize = 96;
-/// From one point to the next one that is looked at, as a part of all: by the golden section every part of a body is soon looked at,
-/// and mostly one point in a few is where it should be.
-const GOLDEN: f64 = 0.618_033_988_749_895;
 /// How far beside a sheet, as a fraction of the domain's diagonal: less than any bed is thick.
 const BESIDE: f64 = 1e-7;
 /// Points of the domain in x, y and z.
@@ -330,21 +327,32 @@ fn beside(sheet: &Surface, distance: f64) -> impl Iterator<Item = DVec3> + '_ {
     })
 }
 
-/// All numbers below one, each once, and those that follow each other far apart.
+/// All numbers below one, each once, and those that follow each other far apart. The count is a product of twos and threes.
 fn scattered(count: usize) -> impl Iterator<Item = usize> {
-    let least = (GOLDEN * count as f64) as usize;
-    let has_no_common_divisor = |step: &usize| {
-        let (mut a, mut b) = (count, *step);
-        while b > 0 {
-            (a, b) = (b, a % b);
-        }
-        a == 1
-    };
-    let step = (least..).find(has_no_common_divisor).unwrap_or(1);
+    // About the golden section of it, and without a divisor in common.
+    let least = count * 618 / 1000;
+    let step = 6 * (least / 6) + 1;
     (0..count).map(move |k| k * step % count)
 }
 
 /// To a millimetre, and without a negative zero.
 fn tidy(length: f64) -> f64 {
     (length * 1e3).round() / 1e3 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scattered_numbers_are_all_there_and_soon_everywhere() {
+        for count in [ALONG * ACROSS[0], OF_SHEET * OF_SHEET] {
+            let all: Vec<usize> = scattered(count).collect();
+            let mut sorted = all.clone();
+            sorted.sort_unstable();
+            assert!(sorted.into_iter().eq(0..count));
+            let tenths: BTreeSet<usize> = all[..20].iter().map(|at| at * 10 / count).collect();
+            assert_eq!(tenths.len(), 10);
+        }
+    }
 }

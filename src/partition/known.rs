@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::bounds::Bounds;
-use super::hermite::Branch;
+use super::hermite::{Branch, Node};
 
 /// Pieces in a group.
 const GROUP: usize = 12;
@@ -34,14 +34,14 @@ impl Known {
             let pieces = start..(start + GROUP).min(branch.pieces());
             let nodes = &branch.nodes[pieces.start..=pieces.end];
             let mut parameters = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
-            for q in nodes.iter().map(|node| node.parameters()) {
+            for q in nodes.iter().map(Node::parameters) {
                 for (range, x) in parameters.iter_mut().zip(q) {
                     *range = [range[0].min(x), range[1].max(x)];
                 }
             }
             let lengths = branch.lengths[pieces.start..=pieces.end].windows(2);
             Group {
-                bounds: Bounds::of(nodes.iter().map(|node| node.point())),
+                bounds: Bounds::of(nodes.iter().map(Node::point)),
                 parameters,
                 longest: lengths.map(|pair| pair[1] - pair[0]).fold(0.0, f64::max),
                 pieces,
