@@ -36,7 +36,7 @@ const WIDER: f64 = 4.0;
 const BESIDE_OF_LEGS: f64 = 1e-3;
 
 /// Ranges of the four parameters on two patches.
-type Ranges = [[f64; 2]; 4];
+pub(super) type Ranges = [[f64; 2]; 4];
 
 /// The parameters of which each grows, or falls, along all chords of common points of two patches.
 pub(super) struct Chords {
@@ -53,17 +53,26 @@ impl Chords {
         Self::with(is_monotone, [a, b], slack)
     }
 
-    /// Of two patches one of which goes on behind a border, where one of the four parameters ends: with the cones of all of both, and
-    /// how far it goes on.
+    /// Of two patches one of which goes on behind a border, where one of the four parameters ends: with the cones of all of both,
+    /// and how far it goes on. Of the other parameters a little around the patches counts, too, as far as their polynomials reach.
     pub(super) fn going_on(
         [a, b]: [&Facet; 2],
         cones: [Cones; 2],
-        parameter: usize,
-        end: f64,
+        (parameter, end): (usize, f64),
+        slack: f64,
+        polynomials: Ranges,
     ) -> Option<Self> {
-        let mut chords = Self::with(by_cones(cones, BORDER), [a, b], BORDER)?;
-        let [low, high] = &mut chords.ranges[parameter];
-        (*low, *high) = (low.min(end), high.max(end));
+        let mut chords = Self::with(by_cones(cones, slack), [a, b], BORDER)?;
+        for (k, range) in chords.ranges.iter_mut().enumerate() {
+            let more = slack * (range[1] - range[0]);
+            let ends = if k == parameter {
+                [end, end]
+            } else {
+                let [low, high] = polynomials[k];
+                [(range[0] - more).max(low), (range[1] + more).min(high)]
+            };
+            *range = [range[0].min(ends[0]), range[1].max(ends[1])];
+        }
         Some(chords)
     }
 

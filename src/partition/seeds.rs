@@ -174,7 +174,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if is_flat || !is_bent && !is_small {
             match self.flat(a, b, is_small) {
                 Verdict::Apart | Verdict::Known => return,
-                Verdict::Doubtful if is_flat && self.runs_along(a, b) => {
+                Verdict::Doubtful if is_flat && self.runs_along(a, b, is_small) => {
                     self.certain += 1;
                     return;
                 }
@@ -286,8 +286,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     }
 
     /// Whether a curve along a border of one of two patches, on either side of it, is all that the two have in common: with a
-    /// strip of the sheet behind that border it never leaves through it.
-    fn runs_along(&self, a: &Facet, b: &Facet) -> bool {
+    /// strip of the sheet behind that border it never leaves through it. Around the smallest patches it may pass beside their corners.
+    fn runs_along(&self, a: &Facet, b: &Facet, is_small: bool) -> bool {
         if !(a.lean() < STRAIGHT && b.lean() < STRAIGHT) {
             return false;
         }
@@ -306,7 +306,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
                 .into_iter()
                 .any(|(border, reach)| {
                     (q[3 + k] - border).abs() <= reach.abs()
-                        && self.is_alone_beyond([a, b], k, [border, border + reach], (branch, t))
+                        && self.is_alone_beyond(
+                            [a, b],
+                            (k, [border, border + reach]),
+                            (branch, t),
+                            if is_small { STRIP } else { BORDER },
+                        )
                 })
         })
     }
@@ -315,9 +320,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     fn is_alone_beyond(
         &self,
         facets: [&Facet; 2],
-        parameter: usize,
-        [border, end]: [f64; 2],
+        (parameter, [border, end]): (usize, [f64; 2]),
         (branch, t): (usize, f64),
+        slack: f64,
     ) -> bool {
         let (side, axis) = (parameter / 2, parameter % 2);
         let own = &facets[side].patch;
@@ -339,7 +344,13 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         let mut cones = facets.map(|facet| facet.cones);
         cones[side] = own.cones_with(&strip);
         let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
-        Chords::going_on(facets, cones, parameter, end)
+        let mut polynomials = [[0.0; 2]; 4];
+        for (k, facet) in facets.into_iter().enumerate() {
+            let [u, v] = facet.patch.middle();
+            let whole = self.shapes[k].patch_at(u, v);
+            (polynomials[2 * k], polynomials[2 * k + 1]) = (whole.u, whole.v);
+        }
+        Chords::going_on(facets, cones, (parameter, end), slack, polynomials)
             .is_some_and(|chords| chords.has_only(&self.known[branch].branch, t, lengths))
     }
 
