@@ -20,10 +20,10 @@ const CELLS: usize = 4;
 const SMOOTHNESS: f64 = 1e-7;
 /// Control points at most, whatever the data.
 const MOST: usize = 300_000;
-/// How many control points there may be for each of few data, and how many in any case: near data that are irregular more are needed than
-/// there are data.
-const FOR_EACH: usize = 4;
-const ANYHOW: usize = 4_000;
+/// How many control points there may be for each height, and how many in any case: those around the plan have no heights, and of a grid all
+/// can be met with one for each. With many more a surface meets whatever there is, and swings between.
+const FOR_EACH: usize = 2;
+const ANYHOW: usize = 64;
 /// Of heights with noise there must be so many for a control point, or the noise is fitted.
 const NOISY: usize = 4;
 

@@ -37,6 +37,7 @@ pub(crate) fn horizon(
             let azimuth = draws.quantity(azimuth_deg, "surface.dipping.azimuth_deg")?;
             Horizon::dipping(through, dip.to_radians(), azimuth.to_radians()).map_err(wrong)
         }
+        HorizonSurface::File(file) => Ok(file.fitted.horizon.clone()),
         measured => measured_heights(measured).map_err(wrong),
     })
 }

@@ -1,6 +1,9 @@
-//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, or a thickness above another one.
+//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a file of heights, or a thickness above
+//! another one.
 
 mod draw;
+mod file;
+mod from_file;
 mod heights;
 mod isochore;
 mod read;
@@ -13,6 +16,7 @@ use super::quantity::Quantity;
 use crate::model::read::{Any, Field};
 
 pub(crate) use draw::horizon;
+pub use from_file::FileSurface;
 pub(crate) use schema::horizon_surface;
 
 /// A surface z(x, y) over the whole domain.
@@ -45,6 +49,8 @@ pub enum HorizonSurface {
         /// How far from a point the surface may pass, vertically.
         tolerance: f64,
     },
+    /// Heights from a file, approximated.
+    File(Box<FileSurface>),
     /// As high above another horizon as a thickness says.
     Above {
         /// Index of the feature that is the other horizon; an older one.
@@ -54,7 +60,7 @@ pub enum HorizonSurface {
     },
 }
 
-/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, or `above` with `thickness`.
+/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, `file` (which has more keys), or `above` with `thickness`.
 #[derive(Deserialize)]
 pub(crate) struct SurfaceFile {
     pub(crate) above: Option<Field<String>>,

@@ -1,5 +1,7 @@
 //! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points.
 
+use super::file::FromFile;
+use super::heights::{ABSURD, NO_DATA};
 use super::{DippingFile, HorizonSurface, SurfaceFile};
 use crate::model::checker::{Checker, Extent, Reported};
 use crate::model::draft::Family;
@@ -8,21 +10,6 @@ use crate::model::tree::NodeId;
 use crate::model::values::limits::{ANY, AZIMUTH, DIP, Limits};
 use crate::model::values::quantity::{Quantity, quantity};
 use crate::model::values::tuple::Tuple;
-
-/// Magnitudes that programs write where there are no data.
-const NO_DATA: [f64; 9] = [
-    999.0,
-    999.25,
-    9999.0,
-    9_999.25,
-    32_768.0,
-    99_999.0,
-    999_999.0,
-    9_999_900.0,
-    1e30,
-];
-/// Heights outside of the domain by more than this many times its height are no heights.
-const ABSURD: f64 = 100.0;
 
 impl Checker<'_> {
     /// A surface; `what` names it, as `the surface of feature "tarbert"`.
@@ -43,12 +30,14 @@ impl Checker<'_> {
             return None;
         }
         let file: SurfaceFile = self.reader.table(node)?;
+        let from_file: FromFile = self.reader.table(node)?;
         self.reader.close(node, what);
         let forms: Vec<&str> = [
             ("level", file.level.is_some()),
             ("dipping", file.dipping.is_some()),
             ("grid", file.grid.is_some()),
             ("points", file.points.is_some()),
+            ("file", from_file.file.is_some()),
             ("above", file.above.is_some() || file.thickness.is_some()),
         ]
         .iter()
@@ -63,22 +52,34 @@ impl Checker<'_> {
             self.reader.wrong(
                 node,
                 message,
-                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], or of a horizon above = \"…\" with \
-                 thickness = …",
+                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], file = \"…\", or of a horizon \
+                 above = \"…\" with thickness = …",
             );
         }
-        if let (Some(Field::Good(at, _)), None) = (&file.tolerance, &file.points) {
+        let is_exact = file.points.is_none() && from_file.file.is_none();
+        if let (Some(Field::Good(at, _)), true) = (&file.tolerance, is_exact) {
             self.reader.wrong(
                 *at,
                 format!("{what} has a `tolerance` without `points`"),
-                "remove it: every other form is met exactly",
+                "remove it: every other form but `file` is met exactly",
+            );
+        }
+        if let Some((at, key)) = from_file.stray() {
+            self.reader.wrong(
+                at,
+                format!("{what} has a `{key}` without `file`"),
+                "remove it: it goes with heights from a file alone",
             );
         }
         // All forms are looked at, so that one slip hides no other.
         let level = self.form(file.level, |checker, at| checker.level_at(at, what, extent));
         let dipping = self.form(file.dipping, |checker, at| checker.dipping(at, what));
         let grid = self.form(file.grid, |checker, at| checker.grid(at, what, extent));
-        let tolerance = file.tolerance;
+        let (tolerance, file_tolerance) = if file.points.is_some() {
+            (file.tolerance, None)
+        } else {
+            (None, file.tolerance)
+        };
         let points = self.form(file.points, |checker, at| {
             checker.scattered(node, at, tolerance, (what, extent))
         });
@@ -87,7 +88,17 @@ impl Checker<'_> {
         } else {
             None
         };
-        let surface = level.or(dipping).or(grid).or(points).or(above)?;
+        let measured = if forms == ["file"] {
+            self.from_file(node, from_file, file_tolerance, (what, extent))
+        } else {
+            None
+        };
+        let surface = level
+            .or(dipping)
+            .or(grid)
+            .or(points)
+            .or(measured)
+            .or(above)?;
         if self.is_no_data(node, &surface, what, extent) {
             return None;
         }
@@ -260,7 +271,10 @@ impl Checker<'_> {
             return;
         };
         let heights: Vec<f64> = match surface {
-            HorizonSurface::Level(_) | HorizonSurface::Above { .. } => return,
+            // What is worth saying of a file is said where that is read.
+            HorizonSurface::Level(_) | HorizonSurface::Above { .. } | HorizonSurface::File(_) => {
+                return;
+            }
             HorizonSurface::Dipping {
                 through,
                 dip_deg,

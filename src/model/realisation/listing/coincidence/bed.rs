@@ -74,7 +74,8 @@ pub(super) fn nodes(surface: &HorizonSurface, features: &[Feature]) -> Option<No
             .or_else(|| nodes(features[*horizon].kind.base()?.surface, features)),
         HorizonSurface::Level(_)
         | HorizonSurface::Dipping { .. }
-        | HorizonSurface::Points { .. } => None,
+        | HorizonSurface::Points { .. }
+        | HorizonSurface::File(_) => None,
     }
 }
 
