@@ -4,6 +4,7 @@
 #[cfg(feature = "occt")]
 pub mod assembly;
 pub mod cli;
+pub mod data;
 pub mod export;
 pub mod features;
 pub mod model;

@@ -97,6 +97,10 @@ fn kind_of(value: &Value) -> String {
             "array" => list_of(value),
             _ => "table".to_owned(),
         },
+        Value::Array(names) if names.iter().any(|name| name == "array") => match &names[0] {
+            Value::String(name) if name == "number" => "number or list".to_owned(),
+            _ => "list".to_owned(),
+        },
         Value::Array(names) if names.iter().any(|name| name == "number") => {
             "number, or three".to_owned()
         }
@@ -185,6 +189,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         "a net" => defined("Net"),
         "a section" => defined("Section"),
         "a junction" => defined("Joins"),
+        "a surface" => defined("Surface"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

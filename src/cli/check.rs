@@ -7,6 +7,7 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::print;
+use crate::export::data::DataEntry;
 use crate::model::rules::{Rules, Verdict, VolumeRules};
 use crate::model::{HorizonSurface, Quantity, meshing, remarks};
 
@@ -218,6 +219,9 @@ fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
     for line in lines {
         out.push_str(&paragraph(line));
     }
+    for (name, file) in model.files() {
+        let _ = writeln!(out, "\ndata of {name}: {}", file.described());
+    }
     for rejection in &loaded.realisation.rejections {
         let _ = writeln!(
             out,
@@ -263,9 +267,15 @@ fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Valu
         .iter()
         .map(|note| serde_json::json!({ "place": note.place.to_string(), "message": note.message }))
         .collect();
+    let data: Vec<_> = loaded
+        .model
+        .files()
+        .map(|(of, file)| DataEntry::of(of, file))
+        .collect();
     serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features,
         "decisions": loaded.realisation.decisions, "notes": notes,
         "remarks": remarks,
+        "data": data,
         "meshing": meshing::advice(&loaded.realisation) })
 }
 
@@ -301,6 +311,7 @@ fn described(surface: &HorizonSurface) -> String {
                 rows.len()
             )
         }
+        HorizonSurface::File(file) => file.described(),
         // Not of the domain's base or top.
         HorizonSurface::Above { .. } => "as thick above another horizon as given".to_owned(),
     }

@@ -63,6 +63,18 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
             grouped(pores)
         );
     }
+    for data in &report.data {
+        let _ = writeln!(
+            out,
+            "{}: {} control points miss {} heights of {} by {:.3} m at most, {:.3} m as root mean square",
+            data.of,
+            data.control_points[0] * data.control_points[1],
+            data.used,
+            data.file,
+            data.most_m,
+            data.rms_m,
+        );
+    }
     for rejected in &report.rejected_draws {
         let _ = writeln!(
             out,

@@ -4,6 +4,7 @@
 pub mod bodies;
 #[cfg(feature = "occt")]
 pub mod brep;
+pub mod data;
 pub mod file;
 #[cfg(feature = "occt")]
 pub mod mesh;

@@ -74,6 +74,20 @@ pub enum HorizonError {
         /// Cells along the longer side of the finest lattice.
         cells: usize,
     },
+    /// What is left over of heights with noise is more than the noise.
+    #[error(
+        "the horizon's heights scatter by {reached:.3} m (root mean square) about a surface of {} × {} control points, more than \
+         the noise of {noise} m that they may have; give that much or more as noise, or a tolerance that every height must be within",
+        nodes[0], nodes[1]
+    )]
+    Rough {
+        /// The noise that was given (m).
+        noise: f64,
+        /// What is left over with as many control points as there may be (m).
+        reached: f64,
+        /// How many these are.
+        nodes: [usize; 2],
+    },
     /// A plan to be covered is empty.
     #[error("the plan from {low} to {high} is empty; its second corner must lie beyond the first")]
     Plan {
@@ -337,7 +351,13 @@ impl Horizon {
         Ok(Surface::new(u, v, net)?)
     }
 
-    fn plane(through: DVec3, slope: DVec2) -> Self {
+    /// A lattice above a plane.
+    pub(super) fn above(lattice: Lattice, through: DVec3, slope: DVec2) -> Self {
+        Self::above_plane(vec![Arc::new(lattice)], through, slope)
+    }
+
+    /// The plane through a point that rises so much per metre in x and y.
+    pub(super) fn plane(through: DVec3, slope: DVec2) -> Self {
         let shape = if slope == DVec2::ZERO {
             Shape::Level(through.z)
         } else {
@@ -392,7 +412,7 @@ fn finite(name: &'static str, value: f64) -> Result<(), HorizonError> {
 }
 
 /// The plane of least squares, without a slope in directions in which the points do not spread.
-fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec2)> {
+pub(super) fn best_plane(points: &[DVec3]) -> Option<(DVec3, DVec2)> {
     if points.is_empty() {
         return None;
     }

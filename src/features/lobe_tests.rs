@@ -178,7 +178,7 @@ fn the_shell_holds_what_is_between_base_and_cap() {
 }
 
 #[test]
-fn a_mouth_bar_begins_at_its_channels_end_and_comes_up_to_its_top() {
+fn a_mouth_bar_begins_a_little_inside_of_its_channel_and_comes_up_to_its_top() {
     let end = Place {
         s: 900.0,
         point: DVec2::new(100.0, 200.0),
@@ -189,10 +189,11 @@ fn a_mouth_bar_begins_at_its_channels_end_and_comes_up_to_its_top() {
         .build()
         .unwrap();
     let tangent = DVec2::from_angle(0.4);
-    assert!(bar.thickness_at(end.point - tangent) == 0.0);
-    assert!(bar.thickness_at(end.point + 10.0 * tangent) > 0.1);
-    assert!(bar.thickness_at(end.point + 249.0 * tangent) > 0.0);
-    assert!(bar.thickness_at(end.point + 251.0 * tangent) == 0.0);
+    // A tenth of the channel's width.
+    assert!(bar.thickness_at(end.point - 5.5 * tangent) == 0.0);
+    assert!(bar.thickness_at(end.point - 4.5 * tangent) > 0.0);
+    assert!(bar.thickness_at(end.point + 244.0 * tangent) > 0.0);
+    assert!(bar.thickness_at(end.point + 246.0 * tangent) == 0.0);
     let (low, high) = bar.shell().unwrap().bounds();
     // The net's top is above the cap's.
     assert!((low.z - (-5.0 - 1.02 * 4.4)).abs() < 1e-9 && high.z > -5.0 - 0.03 * 4.4);

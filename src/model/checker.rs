@@ -1,8 +1,9 @@
 //! What checks have at hand: the tree with its defects, notes, and where the model lies in the world.
 
-mod world;
+pub(crate) mod world;
 
 use std::cell::RefCell;
+use std::path::PathBuf;
 
 use super::defects::Text;
 use super::domain::Domain;
@@ -23,6 +24,8 @@ pub(crate) struct Checker<'t> {
     pub(crate) referring: RefCell<Vec<Referring>>,
     /// Where the local origin lies in the world, as far as it is known.
     pub(crate) origin: [f64; 3],
+    /// Where the paths of files begin.
+    pub(crate) folder: PathBuf,
 }
 
 /// A reference with its place.

@@ -28,7 +28,7 @@ pub(crate) struct ModelFile {
     pub(crate) description: Option<Field<String>>,
     /// Seed of all random draws, a whole number from 0; 1 if left out. The same seed gives the same model.
     pub(crate) seed: Option<Field<u64>>,
-    /// Where the local origin lies in the world, [easting, northing] or [easting, northing, elevation] in metres. Recorded in the results, never added to the coordinates.
+    /// Where the local origin lies in the world, [easting, northing] or [easting, northing, elevation] in metres. Recorded in the results, and subtracted from files of heights in world coordinates; never added to the coordinates of the model.
     #[schemars(schema_with = "origin")]
     #[serde(default)]
     pub(crate) origin: Option<Field<Any>>,

@@ -97,5 +97,5 @@ pub use values::profile::Profile;
 pub use values::property::{Graded, PropertySpec};
 pub use values::quantity::Quantity;
 pub use values::selector::{Pick, Selector};
-pub use values::surface::HorizonSurface;
+pub use values::surface::{FileSurface, HorizonSurface};
 pub use values::trajectory::TrajectorySpec;

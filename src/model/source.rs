@@ -27,6 +27,8 @@ pub struct Source {
     pub(crate) text: String,
     pub(crate) format: Format,
     pub(crate) assignments: Vec<String>,
+    /// Where the paths of files that the model names begin.
+    pub(crate) folder: PathBuf,
 }
 
 /// Why a model file could not be read.
@@ -89,7 +91,8 @@ impl Source {
             .extension()
             .is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
         let format = if json { Format::Json } else { Format::Toml };
-        Ok(Self::from_text(name, text, format))
+        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        Ok(Self::from_text(name, text, format).in_folder(folder))
     }
 
     /// Reads a model from a stream, such as standard input: JSON if it begins with `{`, else TOML; `name` stands in messages as
@@ -118,7 +121,16 @@ impl Source {
             text,
             format,
             assignments: Vec::new(),
+            folder: PathBuf::new(),
         }
+    }
+
+    /// Lets the paths of files that the model names begin at a folder: that of the model file, unless it is said; of a model from a
+    /// stream or from memory, the working directory.
+    #[must_use]
+    pub fn in_folder(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.folder = folder.into();
+        self
     }
 
     /// Overrides a value, as `feature.channel.width=30`, `domain.z=[-80, 0]` or `seed=9`.

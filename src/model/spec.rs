@@ -11,6 +11,7 @@ use super::references::{Host, Reference};
 use super::values::conform::ConformSpec;
 use super::values::property::PropertySpec;
 use super::values::selector::Selector;
+use super::values::surface::{FileSurface, HorizonSurface};
 
 /// A checked model.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +22,7 @@ pub struct Model {
     pub description: Option<String>,
     /// The seed of all draws.
     pub seed: u64,
-    /// Where the local origin lies in the world: recorded, never added to the coordinates.
+    /// Where the local origin lies in the world: recorded, and subtracted from files of heights; never added to the model's coordinates.
     pub origin: [f64; 3],
     /// The block that is modelled.
     pub domain: Domain,
@@ -66,6 +67,29 @@ pub struct Feature {
     pub conform: Option<ConformSpec>,
     /// Where the file defines it.
     pub place: Place,
+}
+
+impl Model {
+    /// The surfaces that come from files, with whose they are: the domain's base and top, then those of features in their order.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &FileSurface)> {
+        let bounds = [
+            ("domain.base", &self.domain.base),
+            ("domain.top", &self.domain.top),
+        ];
+        let bounds = bounds
+            .into_iter()
+            .filter_map(|(name, surface)| Some((name, surface.as_ref()?)));
+        let bases = self.features.iter().filter_map(|feature| {
+            let base = feature.kind.base()?;
+            Some((feature.id.as_str(), base.surface))
+        });
+        bounds
+            .chain(bases)
+            .filter_map(|(name, surface)| match surface {
+                HorizonSurface::File(file) => Some((name, &**file)),
+                _ => None,
+            })
+    }
 }
 
 impl Feature {

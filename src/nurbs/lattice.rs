@@ -83,10 +83,12 @@ pub struct Lattice {
 }
 
 /// The nodes whose coefficients count at a place along one axis.
-struct Weights {
-    first: usize,
-    values: [f64; 4],
-    count: usize,
+pub(super) struct Weights {
+    /// The cell: the node before the place.
+    pub(super) span: usize,
+    pub(super) first: usize,
+    pub(super) values: [f64; 4],
+    pub(super) count: usize,
 }
 
 impl Lattice {
@@ -162,7 +164,7 @@ impl Lattice {
             }
             accumulate(&mut matrix, &row, 1.0);
         }
-        for (row, weight) in bending(counts) {
+        for (row, _, weight) in bending(counts) {
             accumulate(&mut matrix, &row, smoothness * weight);
         }
         for node in 0..nx * ny {
@@ -174,6 +176,27 @@ impl Lattice {
         matrix.solve(&mut right);
         lattice.coefficients = right;
         Ok(lattice)
+    }
+
+    /// The lattice with these coefficients: that of node i along x and j along y is entry `i * ny + j`.
+    pub fn of_coefficients(
+        low: DVec2,
+        high: DVec2,
+        counts: [usize; 2],
+        coefficients: Vec<f64>,
+    ) -> Result<Self, LatticeError> {
+        let [nx, ny] = counts;
+        check_extent(low, high)?;
+        if nx < 2 || ny < 2 || coefficients.len() != nx * ny {
+            let found = coefficients.len();
+            return Err(LatticeError::Count { found, nx, ny });
+        }
+        Ok(Self {
+            low,
+            high,
+            counts,
+            coefficients,
+        })
     }
 
     /// All values multiplied by a factor.
@@ -293,6 +316,7 @@ impl Lattice {
         let first = if t > 0.0 { t.floor() as usize } else { 0 };
         let span = first.min(count - 2);
         let mut weights = Weights {
+            span,
             first: span.saturating_sub(1).min(count.saturating_sub(4)),
             values: [0.0; 4],
             count: count.min(4),
@@ -325,6 +349,11 @@ impl Lattice {
             }
         }
         weights
+    }
+
+    /// What counts at a place along x and along y.
+    pub(super) fn at(&self, place: DVec2) -> (Weights, Weights) {
+        (self.weights(0, place.x), self.weights(1, place.y))
     }
 
     /// Which coefficients count at a place, and how much.
@@ -397,32 +426,33 @@ fn accumulate(matrix: &mut Banded, row: &[(usize, f64)], weight: f64) {
     }
 }
 
-/// Second differences of the coefficients with their weights.
-fn bending([nx, ny]: [usize; 2]) -> Vec<(Vec<(usize, f64)>, f64)> {
-    let at = |i: usize, j: usize| i * ny + j;
-    let mut rows = Vec::new();
-    for i in 0..nx {
-        for j in 0..ny {
-            if i + 2 < nx {
-                let row = vec![(at(i, j), 1.0), (at(i + 1, j), -2.0), (at(i + 2, j), 1.0)];
-                rows.push((row, 1.0));
-            }
-            if j + 2 < ny {
-                let row = vec![(at(i, j), 1.0), (at(i, j + 1), -2.0), (at(i, j + 2), 1.0)];
-                rows.push((row, 1.0));
-            }
-            if i + 1 < nx && j + 1 < ny {
-                let row = vec![
-                    (at(i, j), 1.0),
-                    (at(i + 1, j), -1.0),
-                    (at(i, j + 1), -1.0),
-                    (at(i + 1, j + 1), 1.0),
-                ];
-                rows.push((row, 2.0));
-            }
-        }
-    }
-    rows
+/// A second difference of coefficients, along which axes it is (0: x and x, 1: x and y, 2: y and y), and its weight.
+type Difference = ([(usize, f64); 4], usize, f64);
+
+/// Second differences of the coefficients.
+pub(super) fn bending([nx, ny]: [usize; 2]) -> impl Iterator<Item = Difference> {
+    let at = move |i: usize, j: usize| i * ny + j;
+    let straight = |[a, b, c]: [usize; 3]| [(a, 1.0), (b, -2.0), (c, 1.0), (c, 0.0)];
+    let places = (0..nx).flat_map(move |i| (0..ny).map(move |j| (i, j)));
+    places.flat_map(move |(i, j)| {
+        let along_x = (i + 2 < nx).then(|| [at(i, j), at(i + 1, j), at(i + 2, j)]);
+        let along_y = (j + 2 < ny).then(|| [at(i, j), at(i, j + 1), at(i, j + 2)]);
+        let twisted = (i + 1 < nx && j + 1 < ny).then(|| {
+            [
+                (at(i, j), 1.0),
+                (at(i + 1, j), -1.0),
+                (at(i, j + 1), -1.0),
+                (at(i + 1, j + 1), 1.0),
+            ]
+        });
+        [
+            along_x.map(|nodes| (straight(nodes), 0, 1.0)),
+            along_y.map(|nodes| (straight(nodes), 2, 1.0)),
+            twisted.map(|row| (row, 1, 2.0)),
+        ]
+        .into_iter()
+        .flatten()
+    })
 }
 
 #[cfg(test)]

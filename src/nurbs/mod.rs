@@ -11,6 +11,7 @@
 //! - [`pierce`] finds where lines parallel to an axis pass through a surface.
 //! - [`quadrature`] has the nodes that lengths, areas and volumes are summed over.
 
+mod approximate;
 mod banded;
 mod basis;
 mod bezier;
@@ -36,6 +37,7 @@ mod ruled;
 mod split;
 mod surface;
 
+pub use approximate::Approximation;
 pub use closest::{Closest, ClosestOnSurface};
 pub use curve::{Curve, CurveError};
 pub use extend::ExtendError;

@@ -49,6 +49,7 @@ const KNOWN: &[&[&str]] = &[
         "partition/faces.rs",
         "partition/heights.rs",
         "partition/hermite.rs",
+        "partition/known.rs",
         "partition/landing.rs",
         "partition/march.rs",
         "partition/pair.rs",

@@ -7,10 +7,11 @@ use super::names::{Names, Path};
 use super::tree::Tree;
 
 /// Each layer with the layers that it may name besides itself, lowest first.
-const LAYERS: [(&str, &[&str]); 7] = [
+const LAYERS: [(&str, &[&str]); 8] = [
+    ("data", &[]),
     ("nurbs", &[]),
     ("features", &["nurbs"]),
-    ("model", &["features", "nurbs"]),
+    ("model", &["features", "nurbs", "data"]),
     ("partition", &["nurbs"]),
     ("assembly", &["partition", "model", "features", "nurbs"]),
     ("export", &["assembly", "model", "features", "nurbs"]),

@@ -13,6 +13,7 @@ mod bodies;
 mod channels;
 mod clinoforms;
 mod companions;
+mod data;
 mod ellipsoids;
 mod files;
 mod keys;

@@ -70,7 +70,8 @@ fn wrong_arguments_are_refused_with_1_and_leave_nothing() {
         ),
         ("check model.toml --max-level -1", "-1"),
         ("build model.toml --threads -1", "'-1'"),
-        ("new delta", "quickstart"),
+        ("new delta", "without a name lists them"),
+        ("new quikstart", "quickstart"),
         ("new quickstart model.toml", "exists already"),
     ] {
         let errors = sandbox.refusal(arguments, 1);

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::assembly::proof::Check;
+use crate::export::data::DataEntry;
 
 /// A build's report.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -26,6 +27,9 @@ pub struct Report {
     pub totals: TotalsEntry,
     /// Net volume over gross volume; null if a volume does not say whether it is net.
     pub net_to_gross: Option<f64>,
+    /// The files of heights that the model names, and how near the surfaces are that were fitted to them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub data: Vec<DataEntry>,
     /// Draws that made no surface and were made again.
     pub rejected_draws: Vec<RejectedEntry>,
     /// What was decided before the kernel saw it: what takes no part, and coincidences.

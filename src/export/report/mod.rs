@@ -8,6 +8,7 @@ mod totals;
 use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
+use crate::export::data::DataEntry;
 use crate::model::{Facies, labels, remarks};
 
 pub use entries::*;
@@ -80,6 +81,10 @@ impl Report {
             facies,
             net_to_gross: totals.net_volume_m3.map(|net| net / domain),
             totals,
+            data: model
+                .files()
+                .map(|(of, file)| DataEntry::of(of, file))
+                .collect(),
             rejected_draws: realisation
                 .rejections
                 .iter()

@@ -63,6 +63,7 @@ impl Model {
             notes: Vec::new(),
             referring: RefCell::default(),
             origin: [0.0; 3],
+            folder: source.folder.clone(),
         };
         let (model, defects) = checker.model(parsed.root);
         defects.finish(Arc::clone(&texts), model)

@@ -78,12 +78,12 @@ impl Checker<'_> {
 }
 
 /// How far a point lies outside of a rectangle (m).
-fn beyond([px, py]: [f64; 2], x: [f64; 2], y: [f64; 2]) -> f64 {
+pub(crate) fn beyond([px, py]: [f64; 2], x: [f64; 2], y: [f64; 2]) -> f64 {
     let outside = |at: f64, [low, high]: [f64; 2]| (low - at).max(at - high).max(0.0);
     outside(px, x).hypot(outside(py, y))
 }
 
 /// The longer side of a rectangle (m).
-fn size([west, east]: [f64; 2], [south, north]: [f64; 2]) -> f64 {
+pub(crate) fn size([west, east]: [f64; 2], [south, north]: [f64; 2]) -> f64 {
     (east - west).max(north - south)
 }

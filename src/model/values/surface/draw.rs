@@ -54,6 +54,7 @@ pub(crate) fn horizon(
             let (horizon, _) = made.map_err(|error| ("no horizon", error.to_string()))?;
             Ok(horizon)
         }
+        HorizonSurface::File(file) => Ok(file.fitted.horizon.clone()),
         measured => measured_heights(measured).map_err(wrong),
     })
 }

@@ -7,6 +7,20 @@ use crate::model::tree::{NodeId, Value};
 
 /// Points are on one line if the triangles between them are this thin, as a fraction of their extent.
 const THINNEST: f64 = 1e-9;
+/// Magnitudes that programs write where there are no data.
+pub(super) const NO_DATA: [f64; 9] = [
+    999.0,
+    999.25,
+    9999.0,
+    9_999.25,
+    32_768.0,
+    99_999.0,
+    999_999.0,
+    9_999_900.0,
+    1e30,
+];
+/// Heights outside of the domain by more than this many times its height are no heights.
+pub(super) const ABSURD: f64 = 100.0;
 
 impl Checker<'_> {
     pub(super) fn grid(
@@ -204,7 +218,7 @@ impl Checker<'_> {
 }
 
 /// Whether points lie on one line in plan, or on one point.
-fn on_one_line(points: &[[f64; 3]]) -> bool {
+pub(super) fn on_one_line(points: &[[f64; 3]]) -> bool {
     let Some(&[x, y, _]) = points.first() else {
         return true;
     };

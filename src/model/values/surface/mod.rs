@@ -1,6 +1,9 @@
-//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a control net, or a thickness above another one.
+//! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a control net, a file of heights, or a
+//! thickness above another one.
 
 mod draw;
+mod file;
+mod from_file;
 mod heights;
 mod isochore;
 mod read;
@@ -14,6 +17,7 @@ use crate::features::nets::NamedNet;
 use crate::model::read::{Any, Field};
 
 pub(crate) use draw::horizon;
+pub use from_file::FileSurface;
 pub(crate) use schema::horizon_surface;
 
 /// How far a surface may be from its control net if that is not said (m).
@@ -56,6 +60,8 @@ pub enum HorizonSurface {
         /// How far from it the surface may be, vertically.
         tolerance: f64,
     },
+    /// Heights from a file, approximated.
+    File(Box<FileSurface>),
     /// As high above another horizon as a thickness says.
     Above {
         /// Index of the feature that is the other horizon; an older one.
@@ -65,7 +71,8 @@ pub enum HorizonSurface {
     },
 }
 
-/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, `net`, or `above` with `thickness`.
+/// The table of a surface: one of `level`, `dipping`, `grid`, `points`, `net`, `file` (which has more keys), or `above` with
+/// `thickness`.
 #[derive(Deserialize)]
 pub(crate) struct SurfaceFile {
     pub(crate) above: Option<Field<String>>,

@@ -1,5 +1,7 @@
 //! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a control net.
 
+use super::file::FromFile;
+use super::heights::{ABSURD, NO_DATA};
 use super::{DippingFile, HorizonSurface, NET_TOLERANCE, SurfaceFile};
 use crate::model::checker::{Checker, Extent, Reported};
 use crate::model::draft::Family;
@@ -8,21 +10,6 @@ use crate::model::tree::NodeId;
 use crate::model::values::limits::{ANY, AZIMUTH, DIP, Limits};
 use crate::model::values::quantity::{Quantity, quantity};
 use crate::model::values::tuple::Tuple;
-
-/// Magnitudes that programs write where there are no data.
-const NO_DATA: [f64; 9] = [
-    999.0,
-    999.25,
-    9999.0,
-    9_999.25,
-    32_768.0,
-    99_999.0,
-    999_999.0,
-    9_999_900.0,
-    1e30,
-];
-/// Heights outside of the domain by more than this many times its height are no heights.
-const ABSURD: f64 = 100.0;
 
 impl Checker<'_> {
     /// A surface; `what` names it, as `the surface of feature "tarbert"`.
@@ -43,6 +30,7 @@ impl Checker<'_> {
             return None;
         }
         let file: SurfaceFile = self.reader.table(node)?;
+        let from_file: FromFile = self.reader.table(node)?;
         self.reader.close(node, what);
         let forms: Vec<&str> = [
             ("level", file.level.is_some()),
@@ -50,6 +38,7 @@ impl Checker<'_> {
             ("grid", file.grid.is_some()),
             ("points", file.points.is_some()),
             ("net", file.net.is_some()),
+            ("file", from_file.file.is_some()),
             ("above", file.above.is_some() || file.thickness.is_some()),
         ]
         .iter()
@@ -64,23 +53,35 @@ impl Checker<'_> {
             self.reader.wrong(
                 node,
                 message,
-                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], net = { … }, or of a horizon above = \"…\" with \
-                 thickness = …",
+                "give one of level = …, dipping = { … }, grid = { … }, points = [[x, y, z], …], net = { … }, file = \"…\", or of a \
+                 horizon above = \"…\" with thickness = …",
             );
         }
-        let is_approximated = file.points.is_some() || file.net.is_some();
+        let is_approximated =
+            file.points.is_some() || file.net.is_some() || from_file.file.is_some();
         if let (Some(Field::Good(at, _)), false) = (&file.tolerance, is_approximated) {
             self.reader.wrong(
                 *at,
-                format!("{what} has a `tolerance` without `points` or a `net`"),
+                format!("{what} has a `tolerance` without `points`, a `net` or a `file`"),
                 "remove it: every other form is met exactly",
+            );
+        }
+        if let Some((at, key)) = from_file.stray() {
+            self.reader.wrong(
+                at,
+                format!("{what} has a `{key}` without `file`"),
+                "remove it: it goes with heights from a file alone",
             );
         }
         // All forms are looked at, so that one slip hides no other.
         let level = self.form(file.level, |checker, at| checker.level_at(at, what, extent));
         let dipping = self.form(file.dipping, |checker, at| checker.dipping(at, what));
         let grid = self.form(file.grid, |checker, at| checker.grid(at, what, extent));
-        let tolerance = file.tolerance;
+        let (tolerance, file_tolerance) = if from_file.file.is_some() {
+            (None, file.tolerance)
+        } else {
+            (file.tolerance, None)
+        };
         if let Some(field) = file.net {
             let net = self.surface_net(field, tolerance, what);
             let net = net.filter(|_| forms.len() == 1)?;
@@ -95,7 +96,17 @@ impl Checker<'_> {
         } else {
             None
         };
-        let surface = level.or(dipping).or(grid).or(points).or(above)?;
+        let measured = if forms == ["file"] {
+            self.from_file(node, from_file, file_tolerance, (what, extent))
+        } else {
+            None
+        };
+        let surface = level
+            .or(dipping)
+            .or(grid)
+            .or(points)
+            .or(measured)
+            .or(above)?;
         if self.is_no_data(node, &surface, what, extent) {
             return None;
         }
@@ -300,7 +311,10 @@ impl Checker<'_> {
             return;
         };
         let heights: Vec<f64> = match surface {
-            HorizonSurface::Level(_) | HorizonSurface::Above { .. } => return,
+            // What is worth saying of a file is said where that is read.
+            HorizonSurface::Level(_) | HorizonSurface::Above { .. } | HorizonSurface::File(_) => {
+                return;
+            }
             HorizonSurface::Dipping {
                 through,
                 dip_deg,

@@ -75,7 +75,8 @@ pub(super) fn nodes(surface: &HorizonSurface, features: &[Feature]) -> Option<No
         HorizonSurface::Level(_)
         | HorizonSurface::Dipping { .. }
         | HorizonSurface::Points { .. }
-        | HorizonSurface::Net { .. } => None,
+        | HorizonSurface::Net { .. }
+        | HorizonSurface::File(_) => None,
     }
 }
 

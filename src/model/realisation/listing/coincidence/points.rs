@@ -30,8 +30,10 @@ pub(super) struct Points {
 
 impl Points {
     pub(super) fn of(surface: Option<&HorizonSurface>, fitted: &Horizon) -> Option<Self> {
-        let Some(HorizonSurface::Points { points, tolerance }) = surface else {
-            return None;
+        let (points, tolerance) = match surface? {
+            HorizonSurface::Points { points, tolerance } => (points, *tolerance),
+            HorizonSurface::File(file) => (&file.points, file.tolerance()),
+            _ => return None,
         };
         let points: Vec<DVec3> = points.iter().copied().map(DVec3::from_array).collect();
         let nodes = fitted.lattices().first().map(|lattice| {
@@ -42,7 +44,7 @@ impl Points {
         });
         Some(Self {
             all: points,
-            tolerance: *tolerance,
+            tolerance,
             nodes,
         })
     }
