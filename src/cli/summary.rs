@@ -10,30 +10,7 @@ const MOST_ROWS: usize = 30;
 
 pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String {
     let mut out = String::new();
-    let mut volumes = comfy_table::Table::new();
-    volumes.load_style(comfy_table::presets::NOTHING);
-    volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
-    for volume in report.volumes.iter().take(MOST_ROWS) {
-        volumes.add_row([
-            match &volume.display_name {
-                None => volume.name.clone(),
-                Some(label) => format!("{} ({label})", volume.name),
-            },
-            volume.facies.clone(),
-            volume.solids.len().to_string(),
-            grouped(volume.volume_m3),
-            format!(
-                "{:.3} %",
-                100.0 * volume.volume_m3 / report.domain.volume_m3
-            ),
-        ]);
-    }
-    for column in 2..5 {
-        if let Some(column) = volumes.column_mut(column) {
-            column.set_cell_alignment(comfy_table::CellAlignment::Right);
-        }
-    }
-    let _ = writeln!(out, "{volumes}");
+    let _ = writeln!(out, "{}", volumes(report));
     if report.volumes.len() > MOST_ROWS {
         let _ = writeln!(
             out,
@@ -117,6 +94,34 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
         );
     }
     out
+}
+
+/// A row for each of the first volumes.
+fn volumes(report: &Report) -> comfy_table::Table {
+    let mut volumes = comfy_table::Table::new();
+    volumes.load_style(comfy_table::presets::NOTHING);
+    volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
+    for volume in report.volumes.iter().take(MOST_ROWS) {
+        volumes.add_row([
+            match &volume.display_name {
+                None => volume.name.clone(),
+                Some(label) => format!("{} ({label})", volume.name),
+            },
+            volume.facies.clone(),
+            volume.solids.len().to_string(),
+            grouped(volume.volume_m3),
+            format!(
+                "{:.3} %",
+                100.0 * volume.volume_m3 / report.domain.volume_m3
+            ),
+        ]);
+    }
+    for column in 2..5 {
+        if let Some(column) = volumes.column_mut(column) {
+            column.set_cell_alignment(comfy_table::CellAlignment::Right);
+        }
+    }
+    volumes
 }
 
 /// A whole number with spaces between groups of three digits.

@@ -111,18 +111,15 @@ fn places_of(
     let find = |name: &str| (0..header.len()).find(|at| is(*at, name));
     let mut places = [0; 3];
     for (axis, place) in places.iter_mut().enumerate() {
-        let (found, wanted) = match columns {
-            Some(columns) => {
-                let column = &columns[axis];
-                let numbered = column.parse::<usize>().ok();
-                let numbered = numbered.and_then(|n| n.checked_sub(1));
-                let numbered = numbered.filter(|at| *at < header.len());
-                (find(column).or(numbered), column.clone())
-            }
-            None => {
-                let found = NAMES[axis].iter().find_map(|name| find(name));
-                (found, NAMES[axis][0].to_owned())
-            }
+        let (found, wanted) = if let Some(columns) = columns {
+            let column = &columns[axis];
+            let numbered = column.parse::<usize>().ok();
+            let numbered = numbered.and_then(|n| n.checked_sub(1));
+            let numbered = numbered.filter(|at| *at < header.len());
+            (find(column).or(numbered), column.clone())
+        } else {
+            let found = NAMES[axis].iter().find_map(|name| find(name));
+            (found, NAMES[axis][0].to_owned())
         };
         *place = found.ok_or_else(|| DataError::Column {
             line,

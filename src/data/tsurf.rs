@@ -3,7 +3,7 @@
 //! `VRTX i x y z` and `PVRTX i x y z …`, `ATOM i j` for a copy of a vertex, `TRGL a b c`; numbers of vertices may begin anywhere, and a
 //! file may have several parts. `ZPOSITIVE Depth` tells that z grows downwards.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3};
 
@@ -14,7 +14,7 @@ use super::text;
 
 pub(super) fn read(text: &str) -> Result<Heights, DataError> {
     let mut vertices: BTreeMap<u64, (DVec3, u32)> = BTreeMap::new();
-    let mut used: BTreeMap<u64, ()> = BTreeMap::new();
+    let mut used: BTreeSet<u64> = BTreeSet::new();
     let mut positive = None;
     let (mut last, mut is_complete) = (1, false);
     for (line, found) in text::uncommented(text) {
@@ -41,7 +41,7 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
                     if !vertices.contains_key(&vertex) {
                         return Err(DataError::Vertex { line, vertex });
                     }
-                    used.insert(vertex, ());
+                    used.insert(vertex);
                 }
             }
             "ZPOSITIVE" => {
@@ -68,7 +68,7 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
             },
         });
     }
-    let points = vertices.into_iter().filter(|(id, _)| used.contains_key(id));
+    let points = vertices.into_iter().filter(|(id, _)| used.contains(id));
     let points = points.map(|(_, (at, line))| Point {
         at: DVec2::new(at.x, at.y),
         height: Some(at.z),

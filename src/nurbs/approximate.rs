@@ -5,7 +5,7 @@
 //! heights, in holes and beyond their border, the lattice is the plate that bends least.
 //!
 //! The equations have 49 entries a row, those of 7 × 7 nodes around one. They are solved by conjugate gradients, with a multigrid cycle
-//! over lattices of half as many cells each as preconditioner, beginning with the solution on the next coarser one (Briggs, Henson, McCormick 2000, *A Multigrid Tutorial*): splines on a lattice are
+//! over lattices of half as many cells each as preconditioner, beginning with the solution on the next coarser one (Briggs, Henson and others 2000, *A Multigrid Tutorial*): splines on a lattice are
 //! splines on one with halved cells, so heights and bending of a coarser lattice need no approximation. On the coarsest one the equations are
 //! solved directly. All is summed up in the order of the heights, so no number depends on threads.
 

@@ -268,7 +268,7 @@ fn scour_along(draws: &mut Draws, block: &Block, number: usize) -> Table {
         set(&mut one, "azimuth_deg", draws.within(1.0, 359.0));
         return one;
     }
-    let angle = draws.within(0.0, 6.28);
+    let angle = draws.within(0.0, std::f64::consts::TAU);
     let along = [angle.cos(), angle.sin()];
     let bend = length * draws.within(-0.12, 0.12);
     let at = |s: f64, aside: f64| {

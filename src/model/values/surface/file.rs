@@ -1,5 +1,6 @@
 //! Surfaces from files of heights: found, read, brought to the model's coordinates, and fitted.
 
+use std::fmt::Write as _;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
@@ -103,7 +104,7 @@ impl FromFile {
 
 impl Checker<'_> {
     /// A surface from a file.
-    pub(super) fn from_file(
+    pub(super) fn surface_of_file(
         &mut self,
         table: NodeId,
         keys: FromFile,
@@ -305,15 +306,13 @@ impl Checker<'_> {
         };
         let mut nulls = Vec::with_capacity(nodes.len());
         for node in nodes {
-            match self.reader.tree.number(node) {
-                Some(null) => nulls.push(null),
-                None => {
-                    let found = self.reader.tree.describe(node);
-                    let message =
-                        format!("expected a number that stands for no data, found {found}");
-                    self.reader
-                        .wrong(node, message, "write it as the file has it: null = -999.25");
-                }
+            if let Some(null) = self.reader.tree.number(node) {
+                nulls.push(null);
+            } else {
+                let found = self.reader.tree.describe(node);
+                let message = format!("expected a number that stands for no data, found {found}");
+                self.reader
+                    .wrong(node, message, "write it as the file has it: null = -999.25");
             }
         }
         nulls
@@ -646,7 +645,11 @@ fn upside_down(frame: &Frame, heights: &Heights, [base, top]: [f64; 2]) -> Optio
 }
 
 fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }
 
 /// A folder as people look for it.

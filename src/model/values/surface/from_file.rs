@@ -53,10 +53,13 @@ impl FileSurface {
             misfit.rms,
         );
         if self.coverage.has_holes() {
-            text += &format!("; filled up to {:.0} m from data", self.coverage.filled);
+            text += "; filled up to ";
+            text += &tidy(self.coverage.filled);
+            text += " from data";
         }
         if self.coverage.extrapolated >= 0.5 {
-            text += &format!("; extrapolated by {:.0} m", self.coverage.extrapolated);
+            text += "; extrapolated by ";
+            text += &tidy(self.coverage.extrapolated);
         }
         text
     }
@@ -65,4 +68,9 @@ impl FileSurface {
 /// The corners of a plan.
 pub(super) fn plan([west, east]: [f64; 2], [south, north]: [f64; 2]) -> [DVec2; 2] {
     [DVec2::new(west, south), DVec2::new(east, north)]
+}
+
+/// A distance in the plan, as people read it.
+fn tidy(distance: f64) -> String {
+    format!("{distance:.0} m")
 }

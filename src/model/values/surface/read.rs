@@ -97,7 +97,7 @@ impl Checker<'_> {
             None
         };
         let measured = if forms == ["file"] {
-            self.from_file(node, from_file, file_tolerance, (what, extent))
+            self.surface_of_file(node, from_file, file_tolerance, (what, extent))
         } else {
             None
         };
