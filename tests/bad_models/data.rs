@@ -25,14 +25,14 @@ surface = { file = "top.xyz", tolerance = 0.5 }
 
 /// Columns of x, y and z over the domain and beyond it, as a function of local coordinates has them.
 fn written(mut at: impl FnMut(f64, f64) -> [f64; 3]) -> String {
-    let mut text = String::new();
+    let mut lines = Vec::new();
     for i in -2..=8 {
         for j in -2..=6 {
             let [x, y, z] = at(50.0 * f64::from(i), 50.0 * f64::from(j));
-            text += &format!("{x} {y} {z}\n");
+            lines.push(format!("{x} {y} {z}\n"));
         }
     }
-    text
+    lines.concat()
 }
 
 fn height(x: f64, y: f64) -> f64 {
@@ -52,10 +52,11 @@ fn said(model: &str, file: &str) -> (Defects, String) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("top.xyz"), file).unwrap();
     let defects = check(folder.path(), model).expect_err(model);
-    let words = defects
+    let words: Vec<&str> = defects
         .iter()
-        .map(|defect| format!("{}\n{}\n", defect.message(), defect.remedy()))
+        .flat_map(|defect| [defect.message(), defect.remedy()])
         .collect();
+    let words = words.join("\n");
     (defects, words)
 }
 
