@@ -60,6 +60,18 @@ fn said(model: &str, file: &str) -> (Defects, String) {
     (defects, words)
 }
 
+/// The keys that are broken here alone.
+pub(crate) const KEYS_OF_FILES: &[&str] = &[
+    "columns",
+    "file",
+    "format",
+    "null",
+    "plan_unit",
+    "positive",
+    "unit",
+    "world",
+];
+
 /// Finds this in the model, puts that in its place, expects these words.
 #[rustfmt::skip]
 const KEYS: &[(&str, &str, &[&str])] = &[
@@ -73,6 +85,8 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("tolerance = 0.5", "tolerance = 0.5, format = ▸\"zmpa\"", &["no format \"zmpa\"", "did you mean"]),
     ("tolerance = 0.5", "tolerance = 0.5, positive = ▸\"downwards\"", &["positive \"downwards\"", "\"down\" for depths"]),
     ("tolerance = 0.5", "tolerance = 0.5, unit = ▸\"feet\"", &["no unit \"feet\"", "\"ft\" (0.3048 m)"]),
+    ("tolerance = 0.5", "tolerance = 0.5, plan_unit = ▸\"miles\"", &["unit \"miles\""]),
+    ("tolerance = 0.5", "tolerance = 0.5, world = ▸\"yes\"", &["expected true or false"]),
     ("tolerance = 0.5", "tolerance = 0.5, null = ▸\"none\"", &["stands for no data", "null = -999.25"]),
     ("tolerance = 0.5", "tolerance = 0.5, columns = ▸{ x = 1, y = 2 }", &["has no `z`", "columns = { x ="]),
     ("file = \"top.xyz\", tolerance = 0.5", "level = -1000, unit = ▸\"ft\"", &["a `unit` without `file`", "remove it"]),
@@ -95,6 +109,12 @@ fn keys_that_say_nothing_are_told_with_place_and_remedy() {
             assert!(all.contains(word), "{replace}: {word}\n{defects}");
         }
         assert_eq!(defects.count(), 1, "{defects}");
+    }
+    for key in KEYS_OF_FILES {
+        let broken = format!(", {key} = ▸");
+        let is_broken = |row: &(&str, &str, &[&str])| row.1.contains(&broken);
+        let is_file = *key == "file";
+        assert!(is_file || KEYS.iter().any(is_broken), "{key}");
     }
 }
 
