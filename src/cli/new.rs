@@ -39,13 +39,27 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .file
         .clone()
         .unwrap_or_else(|| PathBuf::from(template.file_name()));
-    if path.exists() && !args.force {
+    let beside = template.data.iter();
+    let data = beside.map(|(name, text)| (path.with_file_name(name), *text));
+    let mut all: Vec<(PathBuf, &str)> = data.collect();
+    all.push((path.clone(), template.text));
+    if let Some((there, _)) = all.iter().find(|(path, _)| path.exists())
+        && !args.force
+    {
         return Err(Failure::Wrong(format!(
             "{} exists already; name another file, or add --force to replace it",
-            path.display()
+            there.display()
         )));
     }
-    files::write(&path, template.text.as_bytes())?;
+    for (path, text) in &all {
+        files::write(path, text.as_bytes())?;
+    }
     let shown = path.display();
-    print::out(&format!("wrote {shown}; next: clinothem build {shown}"))
+    let more = match template.data.len() {
+        0 => String::new(),
+        count => format!(" and {count} files that it reads"),
+    };
+    print::out(&format!(
+        "wrote {shown}{more}; next: clinothem build {shown}"
+    ))
 }

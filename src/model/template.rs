@@ -11,18 +11,24 @@ pub struct Template {
     pub about: &'static str,
     /// The model file.
     pub text: &'static str,
+    /// Files that stand beside it and that it reads: their names, and what they hold.
+    pub data: &'static [(&'static str, &'static str)],
 }
 
-/// Templates of one folder each, or of several files in one, with what they show.
+/// Templates of one folder each, or of several files in one, with the files that they read and what they show.
 macro_rules! templates {
-    ($($folder:literal $(/ $file:literal)?: $about:literal,)+) => {
-        &[$(templates!(@one $folder $($file)?, $about)),+]
+    ($($folder:literal $(/ $file:literal)? $(with [$($data:literal),+])?: $about:literal,)+) => {
+        &[$(Template {
+            data: &[$($(($data, include_str!(concat!("../../models/", $folder, "/", $data)))),+)?],
+            ..templates!(@one $folder $($file)?, $about)
+        }),+]
     };
     (@one $name:literal, $about:literal) => {
         Template {
             name: $name,
             about: $about,
             text: include_str!(concat!("../../models/", $name, "/", $name, ".toml")),
+            data: &[],
         }
     };
     (@one $folder:literal $file:literal, $about:literal) => {
@@ -30,6 +36,7 @@ macro_rules! templates {
             name: concat!($folder, "/", $file),
             about: $about,
             text: include_str!(concat!("../../models/", $folder, "/", $file, ".toml")),
+            data: &[],
         }
     };
 }
@@ -68,6 +75,9 @@ pub const TEMPLATES: &[Template] = templates! {
     "strata" / "bounds": "a curved top and a dipping base of the domain, erosion and onlap",
     "strata" / "points": "a horizon from scattered points, as picks in wells",
     "strata" / "undulating": "clinoform sets between surfaces that undulate",
+    "from-files" with [
+        "base.asc", "coal.xyz", "lower.irap", "middle.cps3", "sand-base.zmap", "sand-top.zmap", "top.csv", "upper.ts"
+    ]: "every surface from a file: seven formats, depths, feet, noise, a hole",
     "fig03-degrees": "a surface from a control net of degree 1, 2 or 3, with weights",
     "fig07-join": "a surface from three control nets of different degrees that join",
 

@@ -158,6 +158,12 @@ fn a_template_that_is_misspelt_is_guessed() {
 #[test]
 fn every_template_is_a_good_model() {
     for template in TEMPLATES {
-        check(template.text, &[]).unwrap_or_else(|defects| panic!("{defects}"));
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in template.data {
+            std::fs::write(folder.path().join(name), text).unwrap();
+        }
+        let source = Source::from_text("model.toml", template.text, Format::Toml);
+        Model::check(&source.in_folder(folder.path()))
+            .unwrap_or_else(|defects| panic!("{defects}"));
     }
 }
