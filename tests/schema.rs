@@ -11,6 +11,8 @@ mod checked;
 #[path = "assembled/underlined.rs"]
 mod underlined;
 
+use std::path::Path;
+
 use clinothem::model::{Format, Model, Source, schema};
 use serde_json::Value;
 
@@ -48,7 +50,7 @@ fn the_schema_admits_every_committed_model() {
                 .is_some_and(|extension| extension == "toml")
             {
                 let text = std::fs::read_to_string(&path).unwrap();
-                check(&text);
+                checked::checked(&Source::read(path.clone()).unwrap());
                 let errors: Vec<String> = validator
                     .iter_errors(&as_json(&text))
                     .map(|e| e.to_string())
@@ -357,7 +359,12 @@ fn one_of_each_kind() -> Vec<(String, Value)> {
 
 /// A model from JSON, without the places of its features in that text.
 fn from_json(model: &Value) -> Result<Model, String> {
-    let source = Source::from_text("model.json", model.to_string(), Format::Json);
+    from_json_in(Path::new(""), model)
+}
+
+/// A model whose files stand in a folder.
+fn from_json_in(folder: &Path, model: &Value) -> Result<Model, String> {
+    let source = Source::from_text("model.json", model.to_string(), Format::Json).in_folder(folder);
     let mut model = Model::check(&source).map_err(|defects| defects.to_string())?;
     for feature in &mut model.features {
         feature.place = clinothem::model::Place::default();
@@ -522,13 +529,19 @@ fn the_examples_of_the_schema_are_what_the_program_takes() {
             }
         }
     }
+    // The file that the examples speak of: 3 × 3 depths over the same plan.
+    let folder = tempfile::tempdir().unwrap();
+    let grid = "-996 3 200 350\n0 400 0 700\n3 0 0 0\n0 0 0 0 0 0 0\n";
+    let grid = format!("{grid}{}\n", ["30"; 9].join(" "));
+    std::fs::write(folder.path().join("top.irap"), grid).unwrap();
     let mut tried = 0;
     for (place, schema) in places {
         for example in schema["examples"].as_array().unwrap() {
             // Names of features are those of another model.
             let text = example.to_string().replace("trunk", "second");
             let mut model = as_json(GOOD);
-            // The examples of surfaces are as large as this.
+            // The examples of surfaces are as large as this, and that of a file has no coordinates in the world.
+            model.as_object_mut().unwrap().remove("origin");
             model["domain"]["x"] = serde_json::json!([0, 400]);
             model["domain"]["y"] = serde_json::json!([0, 700]);
             let mut at = &mut model;
@@ -539,7 +552,7 @@ fn the_examples_of_the_schema_are_what_the_program_takes() {
                 };
             }
             *at = serde_json::from_str(&text).unwrap();
-            let taken = from_json(&model).err();
+            let taken = from_json_in(folder.path(), &model).err();
             assert_eq!(taken, None, "{place} = {example}");
             tried += 1;
         }

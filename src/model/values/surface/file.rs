@@ -654,5 +654,11 @@ fn hexadecimal(bytes: &[u8]) -> String {
 
 /// A folder as people look for it.
 fn absolute(folder: &Path) -> PathBuf {
+    // The working directory has no name of its own.
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
     std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned())
 }

@@ -70,7 +70,10 @@ fn about(description: &str, mut schema: Schema) -> Schema {
 fn of_file() -> Map<String, Value> {
     let words = Format::ALL.map(Format::word);
     let unit = json!(["m", "ft", "us-ft"]);
-    let column = json!({ "type": ["string", "integer"] });
+    let column = |axis: &str| {
+        let description = format!("The column of {axis}: its name in the header, or its number.");
+        json!({ "description": description, "type": ["string", "integer"] })
+    };
     object(json!({
         "file": {
             "description": "A file of heights; its path begins at the model file's folder. With `tolerance` or `smooth`.",
@@ -99,7 +102,7 @@ fn of_file() -> Map<String, Value> {
         "columns": {
             "description": "Which columns of a CSV or XYZ file are x, y and z: names of the header, or numbers from 1.",
             "type": "object",
-            "properties": { "x": column, "y": column, "z": column },
+            "properties": { "x": column("x"), "y": column("y"), "z": column("z") },
             "required": ["x", "y", "z"],
             "additionalProperties": false,
         },
