@@ -9,8 +9,6 @@ use clinothem::model::{
     TrajectorySpec,
 };
 
-use super::check;
-
 fn read(path: &str) -> Model {
     let source = Source::read(path).unwrap();
     Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
