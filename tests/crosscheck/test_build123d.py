@@ -7,7 +7,7 @@ from collections import Counter
 
 import build123d as bd
 import pytest
-from conftest import FINE, FINE_SUM, fine_volume, readable
+from conftest import FINE, FINE_SUM, readable
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
@@ -72,11 +72,16 @@ def check_volumes(build, parts):
     """Compares the solids of each volume in the order of their size; gives the sum."""
     found = {name: [] for name in build.volumes}
     for path, part in parts:
-        found[build.volume_of(path[-1]).name] += [(fine_volume(s) / MM**3, s.area / MM**2) for s in part.solids()]
-    for name, sizes in found.items():
-        for (size, area), told in zip(sorted(sizes), sorted(build.volumes[name].solids), strict=True):
+        found[build.volume_of(path[-1]).name] += part.solids()
+    total = 0.0
+    for name, solids in found.items():
+        solids.sort(key=lambda solid: solid.volume)
+        for solid, told in zip(solids, sorted(build.volumes[name].solids), strict=True):
+            area = solid.area / MM**2
+            size = build.fine_volume(solid, told, area, MM)
             assert build.same_volume(size, told, FINE, area), (name, size, told)
-    return sum(size for sizes in found.values() for size, _ in sizes)
+            total += size
+    return total
 
 
 def uses(bodies):
@@ -200,7 +205,8 @@ def test_brep_keeps_shared_faces_and_is_watertight(build, brep):
 
 def test_brep_holds_the_solids_in_the_reports_order_with_its_volumes(build, brep):
     for solid, (name, told) in zip(brep.solids(), build.solids, strict=True):
-        assert build.same_volume(fine_volume(solid), told, FINE, solid.area), name
+        size = build.fine_volume(solid, told, solid.area)
+        assert build.same_volume(size, told, FINE, solid.area), name
 
 
 def test_the_contacts_of_the_brep_are_the_reports_neighbours(build, brep):
@@ -231,4 +237,6 @@ def test_the_shared_flavour_keeps_common_faces_and_its_shells_close_into_the_sol
     for shell, (name, told) in zip(shells, build.solids, strict=True):
         solid = bd.Solid(BRepBuilderAPI_MakeSolid(shell.wrapped).Solid())
         assert solid.is_valid, name
-        assert build.same_volume(fine_volume(solid) / MM**3, told, FINE, solid.area / MM**2), name
+        area = solid.area / MM**2
+        size = build.fine_volume(solid, told, area, MM)
+        assert build.same_volume(size, told, FINE, area), name
