@@ -10,15 +10,11 @@
 //! columns from west to east, each from north to south, however they are broken into lines
 //! ```
 
-use glam::DVec2;
-
 use super::error::DataError;
 use super::format::Format;
-use super::heights::{Grid, Heights, Layout, is_null};
-use super::text::{self, Values};
-
-/// What stands for no data whatever the header says.
-const HUGE: f64 = 1e29;
+use super::heights::Heights;
+use super::limits::Limits;
+use super::text;
 
 pub(super) fn read(text: &str) -> Result<Heights, DataError> {
     let (mut null, mut limits, mut size) = (None, None, None);
@@ -40,44 +36,22 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
             _ if found.starts_with("->") => {}
             _ if text::number(keyword).is_some() => break,
             _ => {
-                return Err(DataError::Header {
-                    line,
-                    expected: "a line that begins with FSASCI, FSATTR, FSLIMI, FSNROW, FSXINC or ->, or heights",
-                    found: found.chars().take(60).collect(),
-                });
+                return Err(DataError::header(
+                    (line, found),
+                    "a line that begins with FSASCI, FSATTR, FSLIMI, FSNROW, FSXINC or ->, or heights",
+                ));
             }
         }
         last = line;
     }
     let missing = |what| DataError::Missing { line: last, what };
-    let ([west, east, south, north], at) = limits.ok_or_else(|| missing("FSLIMI"))?;
-    let ([rows, columns], sized) = size.ok_or_else(|| missing("FSNROW"))?;
-    let counts = [
-        text::count(columns, "columns", sized)?,
-        text::count(rows, "rows", sized)?,
-    ];
-    let step = DVec2::new(
-        text::step((east - west) / (columns - 1.0), "column", at)?,
-        text::step((north - south) / (rows - 1.0), "row", at)?,
-    );
-    let values = Values {
-        words: text::uncommented(text)
-            .filter(|(line, _)| *line > last)
-            .flat_map(|(line, words)| text::words(words).map(move |word| (line, word))),
-        line: last,
-        bytes: text.len(),
-        counts,
-    };
-    let values = values.read(|z| z.abs() >= HUGE || null.is_some_and(|null| is_null(z, null)))?;
-    Ok(Heights {
+    let header = Limits {
         format: Format::Cps3,
-        layout: Layout::Grid(Grid {
-            first: DVec2::new(west, south),
-            step,
-            rotation: 0.0,
-            counts,
-            heights: text::from_north(&values, counts[1]),
-        }),
-        positive: None,
-    })
+        nodes: limits.ok_or_else(|| missing("FSLIMI"))?,
+        size: size.ok_or_else(|| missing("FSNROW"))?,
+        null,
+        last,
+        bytes: text.len(),
+    };
+    header.grid(text::words_after(text, last))
 }

@@ -104,6 +104,15 @@ pub enum DataError {
 }
 
 impl DataError {
+    /// A line that is not what the format has there.
+    pub(super) fn header((line, found): (usize, &str), expected: &'static str) -> Self {
+        Self::Header {
+            line,
+            expected,
+            found: found.chars().take(60).collect(),
+        }
+    }
+
     /// What to do about it.
     pub fn remedy(&self) -> String {
         match self {

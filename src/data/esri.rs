@@ -37,11 +37,10 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
             .iter()
             .position(|known| key.eq_ignore_ascii_case(known));
         let (Some(at), Some(value)) = (at, words.next()) else {
-            return Err(DataError::Header {
-                line,
-                expected: "a key of an ESRI ASCII grid (ncols, nrows, xllcorner, yllcorner, cellsize, NODATA_value) with its value",
-                found: found.chars().take(60).collect(),
-            });
+            return Err(DataError::header(
+                (line, found),
+                "a key of an ESRI ASCII grid (ncols, nrows, xllcorner, yllcorner, cellsize, NODATA_value) with its value",
+            ));
         };
         said[at] = Some((text::need(value, line)?, line));
         last = line;
@@ -82,9 +81,7 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
         node(south, south_node, step.y, "yllcorner")?,
     );
     let values = Values {
-        words: text::uncommented(text)
-            .filter(|(line, _)| *line > last)
-            .flat_map(|(line, words)| text::words(words).map(move |word| (line, word))),
+        words: text::words_after(text, last),
         line: last,
         bytes: text.len(),
         counts,

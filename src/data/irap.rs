@@ -21,8 +21,7 @@ use super::text::{self, Values};
 const NULL: f64 = 9_999_900.0;
 
 pub(super) fn read(text: &str) -> Result<Heights, DataError> {
-    let mut words = text::uncommented(text)
-        .flat_map(|(line, words)| text::words(words).map(move |word| (line, word)));
+    let mut words = text::words_after(text, 0);
     let mut last = 1;
     let mut number = |expected: &'static str| {
         let Some((line, word)) = words.next() else {

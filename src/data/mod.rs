@@ -11,6 +11,7 @@ mod esri;
 mod format;
 mod heights;
 mod irap;
+mod limits;
 mod text;
 mod tsurf;
 mod xyz;

@@ -37,6 +37,13 @@ pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
         .filter(|word| !word.is_empty())
 }
 
+/// The words of the uncommented lines after one, with their lines.
+pub(super) fn words_after(text: &str, last: usize) -> impl Iterator<Item = (usize, &str)> {
+    uncommented(text)
+        .filter(move |(line, _)| *line > last)
+        .flat_map(|(line, found)| words(found).map(move |word| (line, word)))
+}
+
 /// The number that a word is, or an error with its line.
 pub(super) fn need(word: &str, line: usize) -> Result<f64, DataError> {
     number(word).ok_or_else(|| DataError::Number {
@@ -47,16 +54,12 @@ pub(super) fn need(word: &str, line: usize) -> Result<f64, DataError> {
 
 /// What a header line should have: so many numbers, after whatever words.
 pub(super) fn header<const N: usize>(
-    (line, found): (usize, &str),
+    line: (usize, &str),
     expected: &'static str,
 ) -> Result<[f64; N], DataError> {
-    let wrong = || DataError::Header {
-        line,
-        expected,
-        found: found.chars().take(60).collect(),
-    };
+    let wrong = || DataError::header(line, expected);
     let mut values = [0.0; N];
-    let mut rest = words(found).filter_map(number);
+    let mut rest = words(line.1).filter_map(number);
     for value in &mut values {
         *value = rest.next().ok_or_else(wrong)?;
     }
@@ -133,12 +136,4 @@ impl<'a, I: Iterator<Item = (usize, &'a str)>> Values<'a, I> {
             }),
         }
     }
-}
-
-/// Heights in columns from west to east, each from north to south, as entries by column and then row from the south.
-pub(super) fn from_north(heights: &[Option<f64>], rows: usize) -> Vec<Option<f64>> {
-    let columns = heights.chunks(rows);
-    columns
-        .flat_map(|column| column.iter().rev().copied())
-        .collect()
 }

@@ -90,11 +90,7 @@ fn rest(
     expected: &'static str,
 ) -> Result<Vec<f64>, DataError> {
     if words.len() <= count {
-        return Err(DataError::Header {
-            line,
-            expected,
-            found: found.chars().take(60).collect(),
-        });
+        return Err(DataError::header((line, found), expected));
     }
     let words = &words[1..=count];
     words.iter().map(|word| text::need(word, line)).collect()

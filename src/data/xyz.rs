@@ -27,11 +27,7 @@ pub(super) fn read(text: &str, columns: Option<&[String; 3]>) -> Result<Heights,
             continue;
         }
         if words.len() < widest {
-            return Err(DataError::Header {
-                line,
-                expected: "x, y and z",
-                found: found.chars().take(60).collect(),
-            });
+            return Err(DataError::header((line, found), "x, y and z"));
         }
         let [x, y, z] = columns.map(|column| words[column]);
         let is_none = NONE.iter().any(|none| z.eq_ignore_ascii_case(none));

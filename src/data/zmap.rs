@@ -10,15 +10,12 @@
 //! columns from west to east, each from north to south, in fields of that width
 //! ```
 
-use glam::DVec2;
-
 use super::error::DataError;
 use super::format::Format;
-use super::heights::{Grid, Heights, Layout, is_null};
-use super::text::{self, Values};
+use super::heights::Heights;
+use super::limits::Limits;
+use super::text;
 
-/// What stands for no data whatever the header says.
-const HUGE: f64 = 1e29;
 /// What a blank field stands for.
 const BLANK: &str = "1e30";
 
@@ -27,7 +24,7 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
     let title = next(&mut lines, 1, "a line that begins with @")?;
     let mut parts = title.1.split(',').map(str::trim);
     if !title.1.starts_with('@') || !parts.any(|part| part.eq_ignore_ascii_case("GRID")) {
-        return Err(header(
+        return Err(DataError::header(
             title,
             "@name, GRID, and the number of heights a line",
         ));
@@ -36,7 +33,7 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
     let parts: Vec<&str> = fields.1.split(',').map(str::trim).collect();
     let width = parts.first().and_then(|word| word.parse::<usize>().ok());
     let width = width.filter(|width| *width > 0);
-    let width = width.ok_or_else(|| header(fields, "the width of a field"))?;
+    let width = width.ok_or_else(|| DataError::header(fields, "the width of a field"))?;
     let null = parts
         .iter()
         .skip(1)
@@ -53,14 +50,6 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
             break;
         }
     }
-    let counts = [
-        text::count(columns, "columns", extent.0)?,
-        text::count(rows, "rows", extent.0)?,
-    ];
-    let step = DVec2::new(
-        text::step((east - west) / (columns - 1.0), "column", extent.0)?,
-        text::step((north - south) / (rows - 1.0), "row", extent.0)?,
-    );
     // Fields may touch each other, or be blank; else blanks are enough.
     let raw = text.lines().enumerate().skip(last);
     let words = raw.flat_map(move |(at, line)| {
@@ -78,24 +67,15 @@ pub(super) fn read(text: &str) -> Result<Heights, DataError> {
         };
         words.into_iter().map(move |word| (at + 1, word))
     });
-    let values = Values {
-        words,
-        line: last,
-        bytes: text.len(),
-        counts,
-    };
-    let values = values.read(|z| z.abs() >= HUGE || null.is_some_and(|null| is_null(z, null)))?;
-    Ok(Heights {
+    let header = Limits {
         format: Format::Zmap,
-        layout: Layout::Grid(Grid {
-            first: DVec2::new(west, south),
-            step,
-            rotation: 0.0,
-            counts,
-            heights: text::from_north(&values, counts[1]),
-        }),
-        positive: None,
-    })
+        nodes: ([west, east, south, north], extent.0),
+        size: ([rows, columns], extent.0),
+        null,
+        last,
+        bytes: text.len(),
+    };
+    header.grid(words)
 }
 
 /// The fields of a line; one that is blank stands for no data.
@@ -117,12 +97,4 @@ fn next<'a>(
     what: &'static str,
 ) -> Result<(usize, &'a str), DataError> {
     lines.next().ok_or(DataError::Missing { line, what })
-}
-
-fn header((line, found): (usize, &str), expected: &'static str) -> DataError {
-    DataError::Header {
-        line,
-        expected,
-        found: found.chars().take(60).collect(),
-    }
 }

@@ -70,11 +70,22 @@ struct Asked<'a> {
 
 impl Frame {
     fn local(&self, at: DVec3) -> DVec3 {
-        let sign = match self.positive {
+        (at.xy() * self.plan_unit).extend(self.sign() * self.unit * at.z) - self.origin
+    }
+
+    /// An elevation as the file has it.
+    fn raw(&self, z: f64) -> f64 {
+        let raw = self.sign() * (z + self.origin.z) / self.unit;
+        // As many digits as survive the way here and back.
+        format!("{raw:.6e}").parse().unwrap_or(raw)
+    }
+
+    /// −1 for depths.
+    fn sign(&self) -> f64 {
+        match self.positive {
             Some(Positive::Down) => -1.0,
             _ => 1.0,
-        };
-        (at.xy() * self.plan_unit).extend(sign * self.unit * at.z) - self.origin
+        }
     }
 }
 
@@ -591,19 +602,6 @@ impl Checker<'_> {
                 ),
             );
         }
-    }
-}
-
-impl Frame {
-    /// An elevation as the file has it.
-    fn raw(&self, z: f64) -> f64 {
-        let sign = match self.positive {
-            Some(Positive::Down) => -1.0,
-            _ => 1.0,
-        };
-        let raw = sign * (z + self.origin.z) / self.unit;
-        // As many digits as survive the way here and back.
-        format!("{raw:.6e}").parse().unwrap_or(raw)
     }
 }
 
