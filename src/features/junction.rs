@@ -100,15 +100,13 @@ impl Junction {
             if beside(trunk, place.point).0 <= self.clearance {
                 break;
             }
-            if let Ok(way) = last_part(&place, &end) {
-                let (left, right) = way.sharpest();
-                ways.push((left.max(right), k, way));
-            }
+            let way = LastPart::new(&place, &end);
+            ways.push((way.sharpest(), k, way));
         }
         // As late as it can be done gently; else as gently as possible.
         let gentle = 1.0 / self.radius;
         ways.sort_by(|a, b| {
-            let sharp = |way: &(f64, usize, Trajectory)| way.0.max(gentle);
+            let sharp = |way: &(f64, usize, LastPart)| way.0.max(gentle);
             sharp(a).total_cmp(&sharp(b)).then(b.1.cmp(&a.1))
         });
         let clear = |way: &Trajectory| {
@@ -118,8 +116,11 @@ impl Junction {
                 side == bank && away > 0.5 * self.clearance
             })
         };
-        let found = ways.into_iter().find(|way| clear(&way.2));
-        let (_, k, way) = found.ok_or(JunctionError::NoWay(end.point))?;
+        let mut clear_ways = ways.iter().filter_map(|(_, k, way)| {
+            let way = way.trajectory().ok()?;
+            clear(&way).then_some((*k, way))
+        });
+        let (k, way) = clear_ways.next().ok_or(JunctionError::NoWay(end.point))?;
         if k == 0 {
             return Ok(way);
         }
@@ -134,51 +135,85 @@ fn beside(line: &Trajectory, point: DVec2) -> (f64, Bank) {
         let along = pair[1].point - pair[0].point;
         let part = (point - pair[0].point).dot(along) / along.length_squared();
         let away = point - (pair[0].point + part.clamp(0.0, 1.0) * along);
-        if away.length() < nearest.0 {
+        let squared = away.length_squared();
+        if squared < nearest.0 {
             let bank = if along.perp_dot(away) > 0.0 {
                 Bank::Left
             } else {
                 Bank::Right
             };
-            nearest = (away.length(), bank);
+            nearest = (squared, bank);
         }
     }
-    nearest
+    (nearest.0.sqrt(), nearest.1)
 }
 
-/// The curve of degree 5 from one place to another, with both directions and curvatures.
-fn last_part(from: &Place, to: &Place) -> Result<Trajectory, TrajectoryError> {
-    let speed = from.point.distance(to.point);
-    let bend = |place: &Place| -place.right() * (place.curvature * speed * speed);
-    let [p, q] = [from.point, to.point];
-    let [v, w] = [from.tangent() * speed, to.tangent() * speed];
-    let [a, b] = [bend(from), bend(to)];
-    // Bernstein coefficients of the Hermite interpolant.
-    let net = [
-        p,
-        p + v / 5.0,
-        p + v * 0.4 + a / 20.0,
-        q - w * 0.4 + b / 20.0,
-        q - w / 5.0,
-        q,
-    ];
-    let parameters: Vec<f64> = (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64).collect();
-    Trajectory::from_motion(&parameters, &|t| {
-        let point = casteljau(&net, t);
-        let first: Vec<DVec2> = net.windows(2).map(|n| (n[1] - n[0]) * 5.0).collect();
-        let second: Vec<DVec2> = first.windows(2).map(|n| (n[1] - n[0]) * 4.0).collect();
-        [point, casteljau(&first, t), casteljau(&second, t)]
-    })
+/// The curve of degree 5 from one place to another, with both directions and curvatures: its Bernstein coefficients and those of
+/// its derivatives.
+struct LastPart {
+    points: [DVec2; 6],
+    first: [DVec2; 5],
+    second: [DVec2; 4],
+}
+
+impl LastPart {
+    fn new(from: &Place, to: &Place) -> Self {
+        let speed = from.point.distance(to.point);
+        let bend = |place: &Place| -place.right() * (place.curvature * speed * speed);
+        let [p, q] = [from.point, to.point];
+        let [v, w] = [from.tangent() * speed, to.tangent() * speed];
+        let [a, b] = [bend(from), bend(to)];
+        // Those of the Hermite interpolant.
+        let points = [
+            p,
+            p + v / 5.0,
+            p + v * 0.4 + a / 20.0,
+            q - w * 0.4 + b / 20.0,
+            q - w / 5.0,
+            q,
+        ];
+        let first: [DVec2; 5] = std::array::from_fn(|k| (points[k + 1] - points[k]) * 5.0);
+        let second = std::array::from_fn(|k| (first[k + 1] - first[k]) * 4.0);
+        Self {
+            points,
+            first,
+            second,
+        }
+    }
+
+    fn samples() -> impl Iterator<Item = f64> {
+        (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64)
+    }
+
+    /// Largest curvature at the samples, to either side (1/m).
+    fn sharpest(&self) -> f64 {
+        Self::samples()
+            .map(|t| {
+                let velocity = casteljau(self.first, t);
+                let turn = velocity.perp_dot(casteljau(self.second, t));
+                (turn / velocity.length().powi(3)).abs()
+            })
+            .fold(0.0, f64::max)
+    }
+
+    fn trajectory(&self) -> Result<Trajectory, TrajectoryError> {
+        let parameters: Vec<f64> = Self::samples().collect();
+        Trajectory::from_motion(&parameters, &|t| {
+            [
+                casteljau(self.points, t),
+                casteljau(self.first, t),
+                casteljau(self.second, t),
+            ]
+        })
+    }
 }
 
 /// A Bézier curve's point.
-fn casteljau(net: &[DVec2], t: f64) -> DVec2 {
-    let mut points = net.to_vec();
-    while points.len() > 1 {
-        for at in 0..points.len() - 1 {
+fn casteljau<const N: usize>(mut points: [DVec2; N], t: f64) -> DVec2 {
+    for last in (1..N).rev() {
+        for at in 0..last {
             points[at] = points[at].lerp(points[at + 1], t);
         }
-        points.pop();
     }
     points[0]
 }

@@ -183,6 +183,14 @@ class Build:
         return abs(found - promised) <= max(relative * promised, floor)
 
 
+def pytest_collection_modifyitems(items):
+    """Where several processes share the work, all tests of a model go to one of them, which builds it once."""
+    for item in items:
+        parameters = getattr(item, "callspec", None)
+        model = parameters and parameters.params.get("model")
+        item.add_marker(pytest.mark.xdist_group(model.stem if model else item.nodeid.split("::")[0]))
+
+
 @pytest.fixture(scope="session")
 def clinothem():
     """Runs the program with these arguments, in this folder."""
