@@ -11,6 +11,7 @@ mod abandoned;
 mod answers;
 mod draws;
 mod failures;
+mod grids;
 mod interrupted;
 mod names;
 mod notes;
