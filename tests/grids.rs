@@ -154,7 +154,7 @@ fn the_share_of_an_ellipsoid_tends_to_its_volume_as_cells_shrink() {
     let exact = 4.0 / 3.0 * PI * 4.0 * 3.0 * 2.0 / (60.0 * 40.0 * 30.0);
     let miss = |counts: [usize; 3]| (ready.shares(&ready.boxes(counts), 1)[2] / exact - 1.0).abs();
     // Cells at the surface err at random: about the root of their number.
-    assert!(miss([60, 40, 30]) < 0.06);
+    assert!(miss([60, 40, 30]) < 0.15);
     assert!(miss([240, 160, 120]) < 0.004);
 }
 

@@ -17,3 +17,4 @@ mod names;
 mod notes;
 mod rock;
 mod sandbox;
+mod tables;
