@@ -16,7 +16,7 @@ use std::time::Duration;
 
 use assembled::{checked, source};
 use clinothem::assembly::{Engine, Options, proof, worker};
-use clinothem::export::report::{Parts, Report};
+use clinothem::export::report::{LEAST_AREA, Parts, Report};
 use clinothem::model::Stream;
 use clinothem::model::selection::Selection;
 use glam::DVec3;
@@ -59,6 +59,7 @@ impl Built {
             assembly: &self.assembly,
             level: proof::Level::Full,
             with_bounds: false,
+            least_area: LEAST_AREA,
         })
     }
 

@@ -35,6 +35,8 @@ pub struct Measured {
     pub pieces: Vec<Piece>,
     /// Area shared by pairs of volumes, the smaller index first (m²).
     pub contacts: BTreeMap<(usize, usize), f64>,
+    /// Area shared by pairs of the kernel's solids, the smaller index first (m²).
+    pub shared: BTreeMap<(usize, usize), f64>,
     /// Area on the domain's boundary by volume (m²).
     pub outer: BTreeMap<usize, f64>,
     /// Largest tolerance of any face, edge or vertex (m).
@@ -93,6 +95,7 @@ impl Measured {
         plan: &AssemblyPlan,
     ) -> Self {
         let mut contacts = BTreeMap::new();
+        let mut shared = BTreeMap::new();
         let mut outer = BTreeMap::new();
         let (mut outer_error, mut volume_error) = (0.0, 0.0);
         for (face, integral) in solids.faces().iter().zip(integrals) {
@@ -106,6 +109,7 @@ impl Measured {
                 [a, b] => {
                     let pair = (owner(a).min(owner(b)), owner(a).max(owner(b)));
                     *contacts.entry(pair).or_insert(0.0) += integral.area;
+                    *shared.entry((a.min(b), a.max(b))).or_insert(0.0) += integral.area;
                 }
                 // Anything else is no solid model: the proof counts it.
                 _ => {}
@@ -114,6 +118,7 @@ impl Measured {
         Self {
             pieces: pieces(solids, integrals, boxes, plan),
             contacts,
+            shared,
             outer,
             tolerance: counts.tolerance,
             area: integrals.iter().map(|face| face.area).sum(),

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::args::ModelArgs;
+use super::args::{ModelArgs, finite};
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, print, summary};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
-use crate::export::report::{Parts, Report};
+use crate::export::report::{LEAST_AREA, Parts, Report};
 use crate::export::{ExportError, brep, file, step, table};
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
@@ -25,6 +25,7 @@ use crate::model::{Model, remarks};
   clinothem build channel-belt.toml
   clinothem build channel-belt.toml --seed 12 -o belt-12
   clinothem build channel-belt.toml --without channel-3 --formats step,step-shared,brep
+  clinothem build channel-belt.toml --formats none,xlsx,csv --least-area 10
   clinothem build channel-belt.toml --set feature.channel.width=30 --json")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -35,7 +36,8 @@ pub(super) struct Args {
     /// Write into a folder that holds other things than a build's results.
     #[arg(long)]
     force: bool,
-    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; none for tables only.
+    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; xlsx (all tables as one
+    /// workbook), csv (each table as a file); none for volumes.csv and the report only.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
     formats: Vec<Format>,
     /// The application protocol that STEP files declare.
@@ -44,6 +46,9 @@ pub(super) struct Args {
     /// Report between what the permeability as a whole lies, whatever the arrangement: the harmonic and the arithmetic mean.
     #[arg(long)]
     bounds: bool,
+    /// What two net solids share at least to count as connected (m²).
+    #[arg(long, value_name = "M2", value_parser = finite, default_value_t = LEAST_AREA, allow_negative_numbers = true)]
+    least_area: f64,
     #[command(flatten)]
     pub(super) engine: EngineArgs,
     /// Print the report as JSON instead of tables.
@@ -101,6 +106,8 @@ enum Format {
     Step,
     StepShared,
     Brep,
+    Xlsx,
+    Csv,
     None,
 }
 
@@ -163,6 +170,12 @@ impl Built {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let started = Instant::now();
+    if args.least_area < 0.0 {
+        return Err(Failure::Wrong(format!(
+            "the least area is {} m²; it must be 0 or more",
+            args.least_area
+        )));
+    }
     let folder = args
         .output
         .clone()
@@ -193,6 +206,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         assembly: &built.assembly,
         level: args.engine.level(),
         with_bounds: args.bounds,
+        least_area: args.least_area,
     });
     progress.stage("writing");
     progress.aside(|| say(&report.empty));
@@ -399,7 +413,7 @@ impl Output<'_> {
         let mut names = Vec::new();
         for format in &self.formats(built) {
             let name = match format {
-                Format::None => continue,
+                Format::Xlsx | Format::Csv | Format::None => continue,
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
                 Format::Brep => format!("{}.brep", self.stem),
@@ -416,21 +430,46 @@ impl Output<'_> {
                     step::write_shared(&path, model, realisation, &built.assembly, protocol)
                 }
                 Format::Brep => brep::write(&path, &built.assembly),
-                Format::None => Ok(()),
+                Format::Xlsx | Format::Csv | Format::None => Ok(()),
             }
             .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
             names.push(name);
         }
-        let csv = table::csv(report).map_err(|error| Failure::Surroundings(error.to_string()))?;
-        let json = report
-            .to_json()
-            .map_err(|error| Failure::Surroundings(error.to_string()))?;
-        for (name, text) in [("volumes.csv", csv), ("report.json", json)] {
-            std::fs::write(staging.join(name), text)
+        for (name, bytes) in self.tables(report)? {
+            std::fs::write(staging.join(&name), bytes)
                 .map_err(|error| Failure::file("write to", self.folder, &error))?;
-            names.push(name.to_owned());
+            names.push(name);
         }
         Ok(names)
+    }
+
+    /// The tables and the report, by the names of their files.
+    fn tables(&self, report: &Report) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+        let failed = |error: &dyn std::fmt::Display| Failure::Surroundings(error.to_string());
+        let asked = |format: Format| self.args.formats.contains(&format);
+        let csv = |sheet: &table::Sheet| -> Result<(String, Vec<u8>), Failure> {
+            let text = table::csv(sheet).map_err(|error| failed(&error))?;
+            Ok((format!("{}.csv", sheet.name), text.into_bytes()))
+        };
+        let mut files = Vec::new();
+        if asked(Format::Csv) || asked(Format::Xlsx) {
+            let sheets = table::sheets(report);
+            if asked(Format::Xlsx) {
+                let bytes = table::xlsx(&sheets).map_err(|error| failed(&error))?;
+                files.push((format!("{}.xlsx", self.stem), bytes));
+            }
+            if asked(Format::Csv) {
+                // That of volumes is always there.
+                let others = sheets.iter().filter(|sheet| sheet.name != table::VOLUMES);
+                for sheet in others {
+                    files.push(csv(sheet)?);
+                }
+            }
+        }
+        files.push(csv(&table::volumes(report))?);
+        let json = report.to_json().map_err(|error| failed(&error))?;
+        files.push(("report.json".to_owned(), json.into_bytes()));
+        Ok(files)
     }
 }
 

@@ -10,6 +10,7 @@ mod build;
 mod check;
 mod failure;
 mod files;
+mod grid;
 #[cfg(feature = "occt")]
 mod interrupt;
 mod load;
@@ -17,7 +18,6 @@ mod locate;
 mod new;
 mod picture;
 mod print;
-#[cfg(feature = "occt")]
 mod progress;
 mod schema;
 mod section;
@@ -62,6 +62,7 @@ enum Command {
     Surfaces(surfaces::Args),
     Locate(locate::Args),
     Section(section::Args),
+    Grid(grid::Args),
     #[cfg(feature = "occt")]
     View(view::Args),
     Schema(schema::Args),
@@ -106,6 +107,7 @@ impl Command {
             Self::Surfaces(args) => surfaces::run(&args),
             Self::Locate(args) => locate::run(&args),
             Self::Section(args) => section::run(&args),
+            Self::Grid(args) => grid::run(&args),
             #[cfg(feature = "occt")]
             Self::View(args) => view::run(&args),
             Self::Schema(args) => schema::run(&args),

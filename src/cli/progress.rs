@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+#[cfg(feature = "occt")]
 use crate::assembly::Stage;
 
 /// A bar that shows the stage, its share and the time it takes.
@@ -43,11 +44,17 @@ impl Progress {
     }
 
     /// A stage's share, from any thread.
+    #[cfg(feature = "occt")]
     pub(super) fn share(&self, stage: Stage, fraction: f64) {
         self.bar.set_message(match stage {
             Stage::Assemble => "assembling",
             Stage::Prove => "proving",
         });
+        self.part(fraction);
+    }
+
+    /// The share of the stage that was named last.
+    pub(super) fn part(&self, fraction: f64) {
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -58,6 +65,7 @@ impl Progress {
     }
 
     /// Lets something be printed without the bar in its way.
+    #[cfg(feature = "occt")]
     pub(super) fn aside(&self, print: impl FnOnce()) {
         self.bar.suspend(print);
     }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::export::report::Report;
+use crate::export::report::{ConnectivityEntry, Report};
 
 /// Rows of the summary's table of volumes.
 const MOST_ROWS: usize = 30;
@@ -32,6 +32,7 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
     if let Some(net_to_gross) = report.net_to_gross {
         let _ = writeln!(out, "net-to-gross: {net_to_gross:.4}");
     }
+    let _ = write!(out, "{}", sand_bodies(&report.connectivity));
     if let Some(pores) = report.totals.pore_volume_m3 {
         let porosity = pores / report.domain.volume_m3;
         let _ = writeln!(
@@ -91,6 +92,30 @@ pub(super) fn text(report: &Report, folder: &Path, written: &[String]) -> String
             out,
             "next: open {} in FreeCAD or any CAD program",
             path.display()
+        );
+    }
+    out
+}
+
+/// How net rock hangs together, and what does not say whether it is net.
+fn sand_bodies(web: &ConnectivityEntry) -> String {
+    let mut out = String::new();
+    if let (Some(largest), Some(gamma)) = (web.largest_share, web.gamma) {
+        let (count, bodies) = match web.groups.len() {
+            1 => ("1".to_owned(), "sand body"),
+            count => (count.to_string(), "sand bodies"),
+        };
+        let _ = writeln!(
+            out,
+            "connectivity: {count} {bodies}, the largest has {:.2} % of net volume; Γ {gamma:.4}",
+            100.0 * largest
+        );
+    }
+    if !web.unknown_net.is_empty() {
+        let _ = writeln!(
+            out,
+            "net-to-gross: not known, since `net` is not given for {}",
+            web.unknown_net.join(", ")
         );
     }
     out

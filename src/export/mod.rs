@@ -6,6 +6,7 @@ pub mod bodies;
 pub mod brep;
 pub mod data;
 pub mod file;
+pub mod grid;
 #[cfg(feature = "occt")]
 pub mod mesh;
 pub mod picture;
@@ -15,7 +16,6 @@ pub mod report;
 pub mod step;
 #[cfg(feature = "occt")]
 pub mod table;
-#[cfg(feature = "occt")]
 mod text;
 
 /// Why a file could not be written.

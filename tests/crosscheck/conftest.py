@@ -193,7 +193,7 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def clinothem():
-    """Runs the program with these arguments, in this folder."""
+    """Runs the program with these arguments, in this folder, and gives what it prints."""
     program = os.environ.get("CLINOTHEM_BIN")
     if program is None:
         subprocess.run(["cargo", "build", "--quiet", "--release", "--bin", "clinothem"], cwd=ROOT, check=True)
@@ -205,6 +205,7 @@ def clinothem():
         command = [str(program), *map(str, arguments)]
         done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
         assert done.returncode == 0, f"{' '.join(command)} ended with {done.returncode}\n{done.stderr}"
+        return done.stdout
 
     return run
 

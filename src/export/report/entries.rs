@@ -27,6 +27,12 @@ pub struct Report {
     pub totals: TotalsEntry,
     /// Net volume over gross volume; null if a volume does not say whether it is net.
     pub net_to_gross: Option<f64>,
+    /// Net rock of each unit.
+    pub units: Vec<UnitEntry>,
+    /// How net rock hangs together.
+    pub connectivity: ConnectivityEntry,
+    /// By how much net volumes differ.
+    pub heterogeneity: HeterogeneityEntry,
     /// The files of heights that the model names, and how near the surfaces are that were fitted to them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub data: Vec<DataEntry>,
@@ -197,6 +203,58 @@ pub struct GroupEntry {
     pub solids: Vec<String>,
     /// Volume (m³).
     pub volume_m3: f64,
+}
+
+/// The net rock of a unit: of a horizon with all that lies in it, or of the background with all that lies in no unit.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct UnitEntry {
+    /// The horizon's volume, or the background.
+    pub unit: String,
+    /// Volume (m³).
+    pub volume_m3: f64,
+    /// Net volume (m³); null if a volume does not say whether it is net.
+    pub net_volume_m3: Option<f64>,
+    /// Net volume over gross volume; null likewise.
+    pub net_to_gross: Option<f64>,
+    /// The facies that do not say whether they are net.
+    pub unknown_net: Vec<String>,
+}
+
+/// How net rock hangs together: solids of net volumes are connected where they share enough area.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ConnectivityEntry {
+    /// What two solids share at least to be connected (m²).
+    pub least_area_m2: f64,
+    /// The facies that do not say whether they are net: they take no part.
+    pub unknown_net: Vec<String>,
+    /// The largest group's share of all net volume; null if there is none.
+    pub largest_share: Option<f64>,
+    /// The chance that two places in net rock, drawn at random, lie in one group: Σ V² over the square of Σ V.
+    pub gamma: Option<f64>,
+    /// Of the area of all contacts of net solids, each counted once, the share that lies between two of them.
+    pub amalgamation: Option<f64>,
+    /// The groups, largest first.
+    pub groups: Vec<NetGroupEntry>,
+}
+
+/// Net solids that are connected.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct NetGroupEntry {
+    /// Their names.
+    pub solids: Vec<String>,
+    /// Net volume (m³).
+    pub net_volume_m3: f64,
+    /// Share of all net volume.
+    pub share: f64,
+}
+
+/// By how much net volumes differ; null where one of them lacks permeability or porosity.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct HeterogeneityEntry {
+    /// The static Lorenz coefficient over volumes: 0 of what is all the same, up to 1.
+    pub lorenz: Option<f64>,
+    /// The coefficient of Dykstra and Parsons, 1 − k₈₄/k₅₀, by volume.
+    pub dykstra_parsons: Option<f64>,
 }
 
 /// Draws that were rejected.

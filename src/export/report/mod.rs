@@ -1,5 +1,6 @@
 //! `report.json`: everything about an assembly that the same model, seed and version always give.
 
+mod connectivity;
 mod entries;
 mod groups;
 mod parts;
@@ -11,6 +12,7 @@ use crate::assembly::{Assembly, kernel};
 use crate::export::data::DataEntry;
 use crate::model::{Facies, labels, remarks};
 
+pub use connectivity::LEAST_AREA;
 pub use entries::*;
 use groups::groups;
 pub use parts::{Parts, solid_names};
@@ -29,6 +31,7 @@ impl Report {
             assembly,
             level,
             with_bounds,
+            ..
         } = parts;
         let domain = plan.extent.volume();
         let labels = labels::labels(model, &realisation.volumes);
@@ -81,6 +84,9 @@ impl Report {
             facies,
             net_to_gross: totals.net_volume_m3.map(|net| net / domain),
             totals,
+            units: connectivity::units(parts),
+            connectivity: connectivity::connectivity(parts),
+            heterogeneity: connectivity::heterogeneity(parts),
             data: model
                 .files()
                 .map(|(of, file)| DataEntry::of(of, file))

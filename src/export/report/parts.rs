@@ -21,6 +21,8 @@ pub struct Parts<'a> {
     pub level: Level,
     /// Whether to tell between what the permeability of many volumes as a whole lies.
     pub with_bounds: bool,
+    /// What two solids share at least to be connected (m²).
+    pub least_area: f64,
 }
 
 /// The names of a volume's solids: its own, numbered if there are several.
@@ -31,4 +33,18 @@ pub fn solid_names(name: &str, count: usize) -> Vec<String> {
     (1..=count)
         .map(|number| format!("{name}#{number}"))
         .collect()
+}
+
+/// The names of all solids, in the order of the assembly's pieces.
+pub(super) fn names_of_solids(parts: Parts<'_>) -> Vec<String> {
+    let measured = &parts.assembly.measured;
+    let of = |volume: usize| {
+        let pieces = measured.pieces_of(volume).len();
+        solid_names(&parts.realisation.volumes[volume].name, pieces)
+    };
+    let mut names = Vec::with_capacity(measured.pieces.len());
+    while let Some(piece) = measured.pieces.get(names.len()) {
+        names.extend(of(piece.volume));
+    }
+    names
 }

@@ -32,6 +32,15 @@ impl Share<'_> {
     }
 }
 
+/// A volume times those of its properties that are fractions: see [`Share::part`].
+pub(super) fn part_of(share: &Share<'_>, fractions: &[&str]) -> Option<f64> {
+    let known: Vec<Option<f64>> = fractions
+        .iter()
+        .map(|name| share.rock.scalar(name))
+        .collect();
+    share.part(&known)
+}
+
 /// The totals of some volumes; those without solids do not count.
 pub(super) fn totals(shares: &[Share<'_>], with_bounds: bool) -> TotalsEntry {
     let shares: Vec<Share<'_>> = shares
