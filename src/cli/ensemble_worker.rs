@@ -9,6 +9,7 @@ use crate::ensemble::workers;
 
 /// A build for an ensemble.
 #[derive(Debug, clap::Args)]
+#[group(skip)]
 pub(super) struct Args {
     /// The most address space that it may have, in bytes.
     #[arg(long)]
