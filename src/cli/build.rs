@@ -81,7 +81,7 @@ pub(super) struct EngineArgs {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum Engine {
+pub(super) enum Engine {
     /// The partition; where it is in doubt or not proven, the general fuse.
     #[default]
     Auto,
@@ -102,12 +102,14 @@ impl From<Engine> for assembly::Engine {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
+pub(super) enum Format {
     Step,
     StepShared,
     Brep,
     Xlsx,
     Csv,
+    /// Tables only.
+    #[value(alias = "tables")]
     None,
 }
 
@@ -130,7 +132,7 @@ impl From<Schema> for step::Protocol {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum ProofLevel {
+pub(super) enum ProofLevel {
     #[default]
     Fast,
     Full,
@@ -278,7 +280,7 @@ pub(super) fn assemble(
         Err(error) => {
             progress.done();
             Err(match error {
-                AssemblyError::Cancelled => Failure::Interrupted,
+                AssemblyError::Cancelled => Failure::Interrupted(Failure::INTERRUPTED),
                 AssemblyError::Threads(_)
                 | AssemblyError::Worker {
                     source: worker::WorkerError::Io(_),

@@ -336,6 +336,11 @@ pub(crate) struct Collector {
 
 impl Collector {
     pub(crate) fn add(&mut self, defect: Defect) {
+        // Features that are like each other share values, and what is wrong with these.
+        let same = |other: &Defect| other.span == defect.span && other.message == defect.message;
+        if self.listed.iter().any(same) {
+            return;
+        }
         if self.is_full() {
             self.unlisted += 1;
         } else {

@@ -150,6 +150,30 @@ pub(crate) fn or_form(by_kind: Schema, key: &str, form: &Schema) -> Schema {
     table.into()
 }
 
+/// Tables as above, or such as have their kind and what else they need from another one, which `like` names.
+pub(crate) fn or_like(by_kind: Schema) -> Schema {
+    let allowed: Map<String, Value> = keys(&by_kind)
+        .into_iter()
+        .map(|(key, _)| (key, Value::Bool(true)))
+        .collect();
+    let mut table = object(by_kind.to_value());
+    let rest = ["if", "then", "else", "required"]
+        .into_iter()
+        .filter_map(|word| Some((word.to_owned(), table.remove(word)?)));
+    let rest: Map<String, Value> = rest.collect();
+    table.extend(object(json!({
+        "if": { "required": ["like"] },
+        "then": {
+            "title": "like",
+            "properties": allowed,
+            "required": ["id"],
+            "additionalProperties": false,
+        },
+        "else": rest,
+    })));
+    table.into()
+}
+
 /// A key's schema if all kinds that have it mean the same, or no more than what each says of it; and whether they do.
 fn shared(key: &str, kinds: &[(&str, Schema)]) -> (Value, bool) {
     let having: Vec<(&str, Map<String, Value>, String)> = kinds

@@ -31,7 +31,7 @@ fn triangular(state: &mut u64, [low, mode, high]: [f64; 3]) -> f64 {
 
 /// The share of Table 1's draws whose bends are tighter than the half-width, or that no meander fits: a
 /// sine-generated curve has A/λ = H₀(ω) / 4 J₀(ω) and a least radius λ / (2π ω J₀(ω)).
-fn share_of_folds() -> f64 {
+pub(crate) fn share_of_folds() -> f64 {
     let mut state = 0x9E37_79B9_7F4A_7C15;
     let draws = 400_000;
     let mut folds = 0;

@@ -238,10 +238,15 @@ impl Kind for PointBarsSpec {
         let least = self.least_turn_deg;
         let bends = bends(reach.trajectory(), width, least.to_radians());
         if bends.is_empty() {
-            let message = format!(
-                "its channel has no bend that turns by {least}° or more and is longer than two widths"
-            );
-            return Err(("no bends", message));
+            let none = format!("no bend that turns by {least}° or more and is longer than two widths");
+            return match site.host {
+                // Whether a channel that is drawn has bends is chance, and none is as good as some.
+                Some((name, channel)) if channel.is_drawn() => Ok(Made {
+                    decisions: vec![format!("has no bars in {name}, which has {none}")],
+                    ..Made::of(Vec::new())
+                }),
+                _ => Err(("no bends", format!("its channel has {none}"))),
+            };
         }
         let drawn = draws.taken();
         let mut parts = Vec::new();
