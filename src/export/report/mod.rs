@@ -27,6 +27,7 @@ impl Report {
             realisation,
             plan,
             assembly,
+            wells,
             level,
             with_bounds,
         } = parts;
@@ -85,6 +86,7 @@ impl Report {
                 .files()
                 .map(|(of, file)| DataEntry::of(of, file))
                 .collect(),
+            wells: wells.to_vec(),
             rejected_draws: realisation
                 .rejections
                 .iter()

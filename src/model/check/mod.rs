@@ -102,6 +102,7 @@ impl Checker<'_> {
         let facies = self.all_facies(file.facies, root);
         let domain = self.domain(file.domain, root, &facies);
         let features = self.features(file.feature, domain.as_ref(), &facies);
+        let wells = self.wells(file.well, domain.as_ref());
         if let (Some(domain), Some(features)) = (&domain, &features) {
             self.note_unused_facies(&facies, domain, features);
         }
@@ -113,6 +114,7 @@ impl Checker<'_> {
             domain: domain?,
             facies: facies.finished()?,
             features: features?,
+            wells: wells?,
             notes: self.sorted_notes(),
         })
     }
