@@ -26,6 +26,9 @@ mod section;
 mod summary;
 #[cfg(feature = "occt")]
 mod surfaces;
+mod traces;
+#[cfg(feature = "occt")]
+mod tubes;
 #[cfg(feature = "occt")]
 mod view;
 

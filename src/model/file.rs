@@ -46,6 +46,8 @@ pub(crate) struct ModelFile {
     /// Wells: curves through the stations of their surveys, of which it is told what they pass through. They change nothing.
     #[schemars(with = "Option<Vec<WellFile>>")]
     pub(crate) well: Option<Field<Any>>,
+    /// A table of tops picked in wells: a file with the columns well, horizon and md. It is told how far the horizons are from them.
+    pub(crate) tops: Option<Field<String>>,
 }
 
 /// The modelled block. Before any feature, all of it is the volume `background`.

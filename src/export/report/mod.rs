@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
 use crate::export::data::DataEntry;
+use crate::export::wells::entries::tops;
 use crate::model::{Facies, labels, remarks};
 
 pub use entries::*;
@@ -87,6 +88,7 @@ impl Report {
                 .map(|(of, file)| DataEntry::of(of, file))
                 .collect(),
             wells: wells.to_vec(),
+            tops: tops(model, realisation),
             rejected_draws: realisation
                 .rejections
                 .iter()

@@ -10,6 +10,7 @@ use crate::model::Model;
 use crate::model::realisation::Realisation;
 use crate::model::wells::log::{Crossing, Interval, Logger, Touch, WellLog};
 use crate::model::wells::spec::WellSpec;
+use crate::model::wells::tops::TopSpec;
 use crate::nurbs::interpolate::Parametrization;
 
 /// A well, and what it passes through. Depths are metres.
@@ -139,6 +140,57 @@ pub struct LengthEntry {
     pub length_m: f64,
     /// How much of it is open to the rock (m).
     pub perforated_m: f64,
+}
+
+/// A horizon picked in a well, and how far the model's is from it.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TopEntry {
+    /// The well.
+    pub well: String,
+    /// The horizon.
+    pub horizon: String,
+    /// Measured depth (m).
+    pub md_m: f64,
+    /// The place (m).
+    pub at: [f64; 3],
+    /// How far the horizon lies above the top (m); null if it takes no part.
+    pub misfit_m: Option<f64>,
+}
+
+/// The tops of a model, in the order of their file.
+pub fn tops(model: &Model, realisation: &Realisation) -> Vec<TopEntry> {
+    let entry = |top: &TopSpec| TopEntry {
+        well: model.wells[top.well].name.clone(),
+        horizon: model.features[top.horizon].id.clone(),
+        md_m: top.md,
+        at: top.point.to_array(),
+        misfit_m: top.misfit(realisation).above,
+    };
+    model.tops.iter().map(entry).collect()
+}
+
+/// Of each horizon with tops: how many, the mean of what it lies above them, and the most that it is off (m).
+pub fn tops_in_words(tops: &[TopEntry]) -> Vec<String> {
+    let mut horizons: Vec<&str> = Vec::new();
+    for top in tops {
+        if !horizons.contains(&top.horizon.as_str()) {
+            horizons.push(&top.horizon);
+        }
+    }
+    let words = |horizon: &&str| {
+        let own: Vec<&TopEntry> = tops.iter().filter(|top| top.horizon == *horizon).collect();
+        let known: Vec<f64> = own.iter().filter_map(|top| top.misfit_m).collect();
+        if known.is_empty() {
+            return format!("{horizon} has {} tops and takes no part", own.len());
+        }
+        let mean = known.iter().sum::<f64>() / known.len() as f64;
+        let most = known.iter().map(|misfit| misfit.abs()).fold(0.0, f64::max);
+        format!(
+            "{horizon} lies {mean:+.2} m above its {} tops in the mean, and is {most:.2} m off at most",
+            known.len()
+        )
+    };
+    horizons.iter().map(words).collect()
 }
 
 /// Makes entries of wells.

@@ -103,6 +103,10 @@ impl Checker<'_> {
         let domain = self.domain(file.domain, root, &facies);
         let features = self.features(file.feature, domain.as_ref(), &facies);
         let wells = self.wells(file.well, domain.as_ref());
+        let tops = match (&wells, &features) {
+            (Some(wells), Some(features)) => self.tops(file.tops, wells, features),
+            _ => None,
+        };
         if let (Some(domain), Some(features)) = (&domain, &features) {
             self.note_unused_facies(&facies, domain, features);
         }
@@ -115,6 +119,7 @@ impl Checker<'_> {
             facies: facies.finished()?,
             features: features?,
             wells: wells?,
+            tops: tops?,
             notes: self.sorted_notes(),
         })
     }

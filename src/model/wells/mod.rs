@@ -9,3 +9,4 @@ mod read;
 pub mod spec;
 mod stations;
 mod survey;
+pub mod tops;
