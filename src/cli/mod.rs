@@ -19,6 +19,7 @@ mod grid;
 mod interrupt;
 mod load;
 mod locate;
+mod log;
 mod new;
 mod picture;
 mod print;
@@ -31,6 +32,9 @@ mod section;
 mod summary;
 #[cfg(feature = "occt")]
 mod surfaces;
+mod traces;
+#[cfg(feature = "occt")]
+mod tubes;
 #[cfg(feature = "occt")]
 mod view;
 
@@ -69,6 +73,7 @@ enum Command {
     #[cfg(feature = "occt")]
     Surfaces(surfaces::Args),
     Locate(locate::Args),
+    Log(log::Args),
     Section(section::Args),
     Grid(grid::Args),
     #[cfg(feature = "occt")]
@@ -122,6 +127,7 @@ impl Command {
             #[cfg(feature = "occt")]
             Self::Surfaces(args) => surfaces::run(&args),
             Self::Locate(args) => locate::run(&args),
+            Self::Log(args) => log::run(&args),
             Self::Section(args) => section::run(&args),
             Self::Grid(args) => grid::run(&args),
             #[cfg(feature = "occt")]

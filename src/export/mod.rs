@@ -17,6 +17,7 @@ pub mod step;
 #[cfg(feature = "occt")]
 pub mod table;
 mod text;
+pub mod wells;
 
 /// Why a file could not be written.
 #[cfg(feature = "occt")]

@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
 use crate::export::data::DataEntry;
+use crate::export::wells::entries::tops;
 use crate::model::{Facies, labels, remarks};
 
 pub use connectivity::LEAST_AREA;
@@ -29,6 +30,7 @@ impl Report {
             realisation,
             plan,
             assembly,
+            wells,
             level,
             with_bounds,
             ..
@@ -92,6 +94,8 @@ impl Report {
                 .files()
                 .map(|(of, file)| DataEntry::of(of, file))
                 .collect(),
+            wells: wells.to_vec(),
+            tops: tops(model, realisation),
             rejected_draws: realisation
                 .rejections
                 .iter()

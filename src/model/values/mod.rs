@@ -18,3 +18,4 @@ pub(crate) mod selector;
 pub(crate) mod surface;
 pub(crate) mod trajectory;
 pub(crate) mod tuple;
+pub(crate) mod unit;

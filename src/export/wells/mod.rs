@@ -1,0 +1,5 @@
+//! Wells in results: what they pass through as entries of reports, as tables and as logs.
+
+pub mod entries;
+pub mod las;
+pub mod table;
