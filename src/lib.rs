@@ -7,6 +7,7 @@ pub mod cli;
 pub mod data;
 pub mod export;
 pub mod features;
+pub mod mesh;
 pub mod model;
 pub mod nurbs;
 pub mod partition;

@@ -7,15 +7,22 @@ use super::names::{Names, Path};
 use super::tree::Tree;
 
 /// Each layer with the layers that it may name besides itself, lowest first.
-const LAYERS: [(&str, &[&str]); 8] = [
+const LAYERS: [(&str, &[&str]); 9] = [
     ("data", &[]),
     ("nurbs", &[]),
     ("features", &["nurbs"]),
     ("model", &["features", "nurbs", "data"]),
     ("partition", &["nurbs"]),
     ("assembly", &["partition", "model", "features", "nurbs"]),
-    ("export", &["assembly", "model", "features", "nurbs"]),
-    ("cli", &["export", "assembly", "model", "features", "nurbs"]),
+    ("mesh", &["nurbs"]),
+    (
+        "export",
+        &["mesh", "assembly", "model", "features", "nurbs", "data"],
+    ),
+    (
+        "cli",
+        &["export", "mesh", "assembly", "model", "features", "nurbs"],
+    ),
 ];
 
 /// The only file that may name the kernel's bridge.
