@@ -7,11 +7,14 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
+use super::triangles::{self, TriangleArgs};
 use super::{interrupt, print, summary};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
+use crate::export::mesh::Triangulation;
 use crate::export::report::{Parts, Report};
-use crate::export::{ExportError, brep, file, step, table};
+use crate::export::vertical::Vertical;
+use crate::export::{ExportError, brep, step, table};
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
 use crate::model::{Model, remarks};
@@ -25,6 +28,7 @@ use crate::model::{Model, remarks};
   clinothem build channel-belt.toml
   clinothem build channel-belt.toml --seed 12 -o belt-12
   clinothem build channel-belt.toml --without channel-3 --formats step,step-shared,brep
+  clinothem build channel-belt.toml --formats step,glb,stl,obj,ply,ts --chord 0.5
   clinothem build channel-belt.toml --set feature.channel.width=30 --json")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -35,7 +39,8 @@ pub(super) struct Args {
     /// Write into a folder that holds other things than a build's results.
     #[arg(long)]
     force: bool,
-    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; none for tables only.
+    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; closed triangles as glb and obj
+    /// (all volumes), stl, ply and ts (a file each, in a folder of that name); none for tables only.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
     formats: Vec<Format>,
     /// The application protocol that STEP files declare.
@@ -44,6 +49,8 @@ pub(super) struct Args {
     /// Report between what the permeability as a whole lies, whatever the arrangement: the harmonic and the arithmetic mean.
     #[arg(long)]
     bounds: bool,
+    #[command(flatten)]
+    triangles: TriangleArgs,
     #[command(flatten)]
     pub(super) engine: EngineArgs,
     /// Print the report as JSON instead of tables.
@@ -101,7 +108,25 @@ enum Format {
     Step,
     StepShared,
     Brep,
+    Glb,
+    Obj,
+    Stl,
+    Ply,
+    Ts,
     None,
+}
+
+impl Format {
+    fn triangles(self) -> Option<triangles::Format> {
+        match self {
+            Self::Glb => Some(triangles::Format::Glb),
+            Self::Obj => Some(triangles::Format::Obj),
+            Self::Stl => Some(triangles::Format::Stl),
+            Self::Ply => Some(triangles::Format::Ply),
+            Self::Ts => Some(triangles::Format::Ts),
+            Self::Step | Self::StepShared | Self::Brep | Self::None => None,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -354,12 +379,7 @@ impl Output<'_> {
                 let run = run_json(&timings, started.elapsed());
                 std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
                 names.push(RUN.to_owned());
-                for name in &names {
-                    let (from, to) = (staging.path().join(name), self.folder.join(name));
-                    file::readable(&from)
-                        .and_then(|()| std::fs::rename(from, &to))
-                        .map_err(|error| Failure::file("write", &to, &error))?;
-                }
+                triangles::publish(staging.path(), self.folder, &names)?;
                 Ok(names)
             });
         drop(staging);
@@ -399,10 +419,15 @@ impl Output<'_> {
         let mut names = Vec::new();
         for format in &self.formats(built) {
             let name = match format {
-                Format::None => continue,
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
                 Format::Brep => format!("{}.brep", self.stem),
+                Format::Glb
+                | Format::Obj
+                | Format::Stl
+                | Format::Ply
+                | Format::Ts
+                | Format::None => continue,
             };
             if names.contains(&name) {
                 continue;
@@ -415,12 +440,12 @@ impl Output<'_> {
                 Format::StepShared => {
                     step::write_shared(&path, model, realisation, &built.assembly, protocol)
                 }
-                Format::Brep => brep::write(&path, &built.assembly),
-                Format::None => Ok(()),
+                _ => brep::write(&path, &built.assembly),
             }
             .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
             names.push(name);
         }
+        names.extend(self.write_triangles(staging, built)?);
         let csv = table::csv(report).map_err(|error| Failure::Surroundings(error.to_string()))?;
         let json = report
             .to_json()
@@ -429,6 +454,47 @@ impl Output<'_> {
             std::fs::write(staging.join(name), text)
                 .map_err(|error| Failure::file("write to", self.folder, &error))?;
             names.push(name.to_owned());
+        }
+        Ok(names)
+    }
+}
+
+impl Output<'_> {
+    /// The volumes as closed triangles, in the formats of these. Returns the files' names.
+    fn write_triangles(&self, staging: &Path, built: &Built) -> Result<Vec<String>, Failure> {
+        let mut formats: Vec<triangles::Format> = Vec::new();
+        for format in self
+            .args
+            .formats
+            .iter()
+            .filter_map(|format| format.triangles())
+        {
+            if !formats.contains(&format) {
+                formats.push(format);
+            }
+        }
+        if formats.is_empty() {
+            return Ok(Vec::new());
+        }
+        let args = &self.args.triangles;
+        let fineness = args.fineness(&built.subject.plan);
+        let meshes = Triangulation::new(&built.assembly, &fineness)
+            .and_then(|triangles| triangles.volumes(&built.assembly))
+            .map_err(|error| Failure::Surroundings(error.to_string()))?;
+        let meshes = meshes.into_iter().map(|mesh| (None, mesh)).collect();
+        let origin = args.origin(&built.model);
+        let parts = triangles::parts(
+            &built.model,
+            &built.subject.realisation,
+            meshes,
+            &fineness,
+            origin,
+        );
+        let mut names = Vec::new();
+        for format in formats {
+            let files = triangles::files(format, &self.stem, &parts, args, Vertical::Elevation)?;
+            let written = triangles::write(staging, files);
+            names.extend(written.map_err(|error| Failure::file("write to", self.folder, &error))?);
         }
         Ok(names)
     }

@@ -26,6 +26,8 @@ mod summary;
 #[cfg(feature = "occt")]
 mod surfaces;
 #[cfg(feature = "occt")]
+mod triangles;
+#[cfg(feature = "occt")]
 mod view;
 
 use std::io::Write;

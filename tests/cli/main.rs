@@ -16,3 +16,4 @@ mod names;
 mod notes;
 mod rock;
 mod sandbox;
+mod triangles;
