@@ -9,6 +9,7 @@ pub mod data;
 pub mod ensemble;
 pub mod export;
 pub mod features;
+pub mod mesh;
 pub mod model;
 pub mod nurbs;
 pub mod partition;

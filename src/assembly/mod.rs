@@ -80,12 +80,18 @@ impl Assembly {
             .map(|solid| solid.owner)
     }
 
-    /// The plan's shell on whose boundary a face lies; none on the domain's skin and on lids.
-    pub(crate) fn shell_of_face(&self, face: usize) -> Option<usize> {
-        let origins = &self.solids.faces()[face].origins;
-        origins
-            .iter()
-            .find_map(|origin| origin.argument.checked_sub(self.first_shell))
+    /// All faces, each with the plan's shell on whose boundary it lies and the number of its sheet in that shell; none on the
+    /// domain's skin and on lids.
+    pub(crate) fn shells_of_faces(&self) -> impl Iterator<Item = (usize, Option<(usize, usize)>)> {
+        let faces = self.solids.faces().iter().enumerate();
+        faces.map(|(at, face)| {
+            let mut origins = face.origins.iter();
+            let shell = origins.find_map(|origin| {
+                let shell = origin.argument.checked_sub(self.first_shell)?;
+                Some((shell, origin.face))
+            });
+            (at, shell)
+        })
     }
 
     /// All solids in the order of [`Measured::pieces`]; they have common faces.

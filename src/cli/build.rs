@@ -7,12 +7,15 @@ use super::args::{ModelArgs, finite};
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
+use super::triangles::{self, TriangleArgs};
 use super::{interrupt, print, summary};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
+use crate::export::mesh::Triangulation;
 use crate::export::report::{LEAST_AREA, Parts, Report};
+use crate::export::vertical::Vertical;
 use crate::export::wells::entries::{WellEntry, Wells};
-use crate::export::{ExportError, brep, file, step, table, wells};
+use crate::export::{ExportError, brep, step, table, wells};
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
 use crate::model::wells::log::Logger;
@@ -28,6 +31,7 @@ use crate::model::{Model, remarks};
   clinothem build channel-belt.toml --seed 12 -o belt-12
   clinothem build channel-belt.toml --without channel-3 --formats step,step-shared,brep
   clinothem build channel-belt.toml --formats none,xlsx,csv --least-area 10
+  clinothem build channel-belt.toml --formats step,glb,stl,obj,ply,ts --chord 0.5
   clinothem build channel-belt.toml --set feature.channel.width=30 --json")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -38,8 +42,9 @@ pub(super) struct Args {
     /// Write into a folder that holds other things than a build's results.
     #[arg(long)]
     force: bool,
-    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; xlsx (all tables as one
-    /// workbook), csv (each table as a file); none for volumes.csv and the report only.
+    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; closed triangles as glb and obj
+    /// (all volumes), stl, ply and ts (a file each, in a folder of that name); xlsx (all tables as one workbook), csv (each table
+    /// as a file); none for volumes.csv and the report only.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
     formats: Vec<Format>,
     /// The application protocol that STEP files declare.
@@ -51,6 +56,8 @@ pub(super) struct Args {
     /// What two net solids share at least to count as connected (m²).
     #[arg(long, value_name = "M2", value_parser = finite, default_value_t = LEAST_AREA, allow_negative_numbers = true)]
     least_area: f64,
+    #[command(flatten)]
+    triangles: TriangleArgs,
     #[command(flatten)]
     pub(super) engine: EngineArgs,
     /// Print the report as JSON instead of tables.
@@ -108,11 +115,34 @@ pub(super) enum Format {
     Step,
     StepShared,
     Brep,
+    Glb,
+    Obj,
+    Stl,
+    Ply,
+    Ts,
     Xlsx,
     Csv,
     /// Tables only.
     #[value(alias = "tables")]
     None,
+}
+
+impl Format {
+    fn triangles(self) -> Option<triangles::Format> {
+        match self {
+            Self::Glb => Some(triangles::Format::Glb),
+            Self::Obj => Some(triangles::Format::Obj),
+            Self::Stl => Some(triangles::Format::Stl),
+            Self::Ply => Some(triangles::Format::Ply),
+            Self::Ts => Some(triangles::Format::Ts),
+            Self::Step
+            | Self::StepShared
+            | Self::Brep
+            | Self::Xlsx
+            | Self::Csv
+            | Self::None => None,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -389,12 +419,7 @@ impl Output<'_> {
                 let run = run_json(&timings, started.elapsed());
                 std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
                 names.push(RUN.to_owned());
-                for name in &names {
-                    let (from, to) = (staging.path().join(name), self.folder.join(name));
-                    file::readable(&from)
-                        .and_then(|()| std::fs::rename(from, &to))
-                        .map_err(|error| Failure::file("write", &to, &error))?;
-                }
+                triangles::publish(staging.path(), self.folder, &names)?;
                 Ok(names)
             });
         drop(staging);
@@ -434,10 +459,17 @@ impl Output<'_> {
         let mut names = Vec::new();
         for format in &self.formats(built) {
             let name = match format {
-                Format::Xlsx | Format::Csv | Format::None => continue,
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
                 Format::Brep => format!("{}.brep", self.stem),
+                Format::Glb
+                | Format::Obj
+                | Format::Stl
+                | Format::Ply
+                | Format::Ts
+                | Format::Xlsx
+                | Format::Csv
+                | Format::None => continue,
             };
             if names.contains(&name) {
                 continue;
@@ -450,12 +482,12 @@ impl Output<'_> {
                 Format::StepShared => {
                     step::write_shared(&path, model, realisation, &built.assembly, protocol)
                 }
-                Format::Brep => brep::write(&path, &built.assembly),
-                Format::Xlsx | Format::Csv | Format::None => Ok(()),
+                _ => brep::write(&path, &built.assembly),
             }
             .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
             names.push(name);
         }
+        names.extend(self.write_triangles(staging, built)?);
         for (name, bytes) in self.tables(report)? {
             std::fs::write(staging.join(&name), bytes)
                 .map_err(|error| Failure::file("write to", self.folder, &error))?;
@@ -495,6 +527,47 @@ impl Output<'_> {
         let json = report.to_json().map_err(|error| failed(&error))?;
         files.push(("report.json".to_owned(), json.into_bytes()));
         Ok(files)
+    }
+}
+
+impl Output<'_> {
+    /// The volumes as closed triangles, in the formats of these. Returns the files' names.
+    fn write_triangles(&self, staging: &Path, built: &Built) -> Result<Vec<String>, Failure> {
+        let mut formats: Vec<triangles::Format> = Vec::new();
+        for format in self
+            .args
+            .formats
+            .iter()
+            .filter_map(|format| format.triangles())
+        {
+            if !formats.contains(&format) {
+                formats.push(format);
+            }
+        }
+        if formats.is_empty() {
+            return Ok(Vec::new());
+        }
+        let args = &self.args.triangles;
+        let fineness = args.fineness(&built.subject.plan);
+        let meshes = Triangulation::new(&built.assembly, &fineness)
+            .and_then(|triangles| triangles.volumes(&built.assembly))
+            .map_err(|error| Failure::Surroundings(error.to_string()))?;
+        let meshes = meshes.into_iter().map(|mesh| (None, mesh)).collect();
+        let origin = args.origin(&built.model);
+        let parts = triangles::parts(
+            &built.model,
+            &built.subject.realisation,
+            meshes,
+            &fineness,
+            origin,
+        );
+        let mut names = Vec::new();
+        for format in formats {
+            let files = triangles::files(format, &self.stem, &parts, args, Vertical::Elevation)?;
+            let written = triangles::write(staging, files);
+            names.extend(written.map_err(|error| Failure::file("write to", self.folder, &error))?);
+        }
+        Ok(names)
     }
 }
 

@@ -36,6 +36,8 @@ mod traces;
 #[cfg(feature = "occt")]
 mod tubes;
 #[cfg(feature = "occt")]
+mod triangles;
+#[cfg(feature = "occt")]
 mod view;
 
 use std::io::Write;

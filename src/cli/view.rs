@@ -10,9 +10,12 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, picture, tubes};
-use crate::export::mesh;
+use crate::export::ExportError;
+use crate::export::mesh::Triangulation;
 use crate::export::picture::view::{Box3, Camera, Cut, Part, Projection, Scene};
 use crate::export::picture::{Rgb, Swatch, Volume, cap};
+use crate::export::sheets::Sheets;
+use crate::mesh::Fineness;
 use crate::model::rules::BACKGROUND;
 
 /// Draw the model in three dimensions as PNG: its solids, or a block coloured by the point evaluator.
@@ -78,7 +81,9 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
 }
 
 /// Largest distance of triangles from the surfaces, as a fraction of the domain's diagonal.
-const DEFLECTION: f64 = 2e-4;
+const CHORD: f64 = 2e-4;
+/// Largest angle between the surface's normals along a triangle's side (rad).
+const ANGLE: f64 = 0.3;
 /// The eye's distance in perspective, in diagonals.
 const DISTANCE: f64 = 3.0;
 
@@ -187,20 +192,38 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
     let progress = Progress::new(args.engine.quiet);
     let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
-    let deflection = DEFLECTION * built.subject.plan.low().distance(built.subject.plan.high());
+    let fineness = Fineness {
+        chord: CHORD * built.subject.plan.low().distance(built.subject.plan.high()),
+        angle: ANGLE,
+    };
     let meshes = match args.style {
-        Style::Sheets => mesh::triangulate_sheets(&built.assembly, &built.subject.plan, deflection),
-        Style::Solids | Style::Block => mesh::triangulate(&built.assembly, deflection),
-    }
-    .map_err(|error| Failure::Surroundings(error.to_string()))?;
+        Style::Sheets => {
+            let (plan, realisation) = (&built.subject.plan, &built.subject.realisation);
+            let sheets = Sheets::trimmed(&built.assembly, plan, realisation, &fineness);
+            sheets.and_then(|sheets| {
+                sheets
+                    .all()
+                    .iter()
+                    .map(|sheet| sheets.mesh(sheet))
+                    .collect()
+            })
+        }
+        Style::Solids | Style::Block => Triangulation::new(&built.assembly, &fineness)
+            .and_then(|triangles| triangles.volumes(&built.assembly)),
+    };
+    let meshes = meshes.map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
     progress.done();
     let parts = meshes
         .into_iter()
         .filter(|mesh| mesh.volume != BACKGROUND)
         .map(|mesh| Part {
             volume: mesh.volume,
-            positions: mesh.positions,
-            normals: Some(mesh.normals),
+            positions: mesh
+                .corners
+                .iter()
+                .map(|corner| mesh.positions[corner.point as usize])
+                .collect(),
+            normals: Some(mesh.corners.iter().map(|corner| corner.normal).collect()),
             triangles: mesh.triangles,
             opacity: 1.0,
         })

@@ -4,20 +4,46 @@
 pub mod bodies;
 #[cfg(feature = "occt")]
 pub mod brep;
+pub mod cps3;
 pub mod data;
 pub mod file;
 pub mod grid;
 #[cfg(feature = "occt")]
+pub mod glb;
+#[cfg(feature = "occt")]
+pub mod heights;
+pub mod irap;
+#[cfg(feature = "occt")]
 pub mod mesh;
+#[cfg(feature = "occt")]
+pub mod obj;
+#[cfg(feature = "occt")]
+pub mod part;
 pub mod picture;
+#[cfg(feature = "occt")]
+pub mod ply;
 #[cfg(feature = "occt")]
 pub mod report;
 #[cfg(feature = "occt")]
+pub mod sheets;
+#[cfg(feature = "occt")]
 pub mod step;
 #[cfg(feature = "occt")]
+pub mod stl;
+#[cfg(feature = "occt")]
 pub mod table;
+#[cfg(feature = "occt")]
+mod tables;
 mod text;
+#[cfg(feature = "occt")]
+pub mod tsurf;
+#[cfg(feature = "occt")]
+pub mod vertical;
 pub mod wells;
+pub mod zmap;
+
+#[cfg(feature = "occt")]
+pub(crate) use text::ascii;
 
 /// Why a file could not be written.
 #[cfg(feature = "occt")]

@@ -7,18 +7,24 @@ use super::names::{Names, Path};
 use super::tree::Tree;
 
 /// Each layer with the layers that it may name besides itself, lowest first.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("data", &[]),
     ("nurbs", &[]),
     ("features", &["nurbs"]),
     ("model", &["features", "nurbs", "data"]),
     ("partition", &["nurbs"]),
     ("assembly", &["partition", "model", "features", "nurbs"]),
-    ("export", &["assembly", "model", "features", "nurbs"]),
+    ("mesh", &["nurbs"]),
+    (
+        "export",
+        &["mesh", "assembly", "model", "features", "nurbs", "data"],
+    ),
     ("ensemble", &["export", "assembly", "model"]),
     (
         "cli",
-        &["ensemble", "export", "assembly", "model", "features", "nurbs"],
+        &[
+            "ensemble", "export", "mesh", "assembly", "model", "features", "nurbs",
+        ],
     ),
 ];
 

@@ -18,3 +18,4 @@ mod notes;
 mod rock;
 mod sandbox;
 mod tables;
+mod triangles;

@@ -193,7 +193,7 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def clinothem():
-    """Runs the program with these arguments, in this folder, and gives what it prints."""
+    """Runs the program with these arguments, in this folder; it is to end with this code."""
     program = os.environ.get("CLINOTHEM_BIN")
     if program is None:
         subprocess.run(["cargo", "build", "--quiet", "--release", "--bin", "clinothem"], cwd=ROOT, check=True)
@@ -201,11 +201,11 @@ def clinothem():
         program = ROOT / target / "release" / "clinothem"
     program = pathlib.Path(program).resolve()
 
-    def run(*arguments, cwd=ROOT):
+    def run(*arguments, cwd=ROOT, code=0):
         command = [str(program), *map(str, arguments)]
         done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, f"{' '.join(command)} ended with {done.returncode}\n{done.stderr}"
-        return done.stdout
+        assert done.returncode == code, f"{' '.join(command)} ended with {done.returncode}\n{done.stderr}"
+        return done
 
     return run
 

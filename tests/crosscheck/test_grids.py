@@ -219,5 +219,5 @@ def test_cells_of_committed_models_hold_what_locate_says(clinothem, model, tmp_p
     assert np.isclose(sum(one["fraction"] for one in key["volumes"]), 1)
     for cell in [(0, 0, 0), (8, 3, 4), (4, 5, 2)]:
         middle = np.array(key["corner"]) + (np.array(cell) + 0.5) * np.array(key["size"])
-        told = json.loads(clinothem("locate", model, "--json", "--", *middle))
+        told = json.loads(clinothem("locate", model, "--json", "--", *middle).stdout)
         assert key["volumes"][volumes[cell]]["volume"] == told["volume"]
