@@ -3,6 +3,8 @@
 #[cfg(feature = "occt")]
 pub mod bodies;
 #[cfg(feature = "occt")]
+mod boundary;
+#[cfg(feature = "occt")]
 pub mod brep;
 pub mod cps3;
 pub mod data;
@@ -32,8 +34,6 @@ pub mod step;
 pub mod stl;
 #[cfg(feature = "occt")]
 pub mod table;
-#[cfg(feature = "occt")]
-mod tables;
 mod text;
 #[cfg(feature = "occt")]
 pub mod tsurf;

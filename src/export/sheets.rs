@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::ExportError;
 use super::mesh::{Triangulation, VolumeMesh, collect, failed};
-use super::tables::tables;
+use super::boundary::tables;
 use crate::assembly::{self, Assembly, kernel};
 use crate::features::body::Role;
 use crate::mesh::{self, Fineness, Mesh, Support, Tables, Used};
