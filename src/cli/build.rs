@@ -11,7 +11,7 @@ use super::{interrupt, print, summary};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
 use crate::export::report::{LEAST_AREA, Parts, Report};
-use crate::export::{ExportError, brep, file, step, table};
+use crate::export::{ExportError, brep, file, numbers, step, table};
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
 use crate::model::{Model, remarks};
@@ -411,7 +411,11 @@ impl Output<'_> {
         let (model, realisation) = (&built.model, &built.subject.realisation);
         let protocol = self.args.step_schema.into();
         let mut names = Vec::new();
-        for format in &self.formats(built) {
+        let formats = self.formats(built);
+        let has_shared = [Format::StepShared, Format::Brep]
+            .iter()
+            .any(|format| formats.contains(format));
+        for format in &formats {
             let name = match format {
                 Format::Xlsx | Format::Csv | Format::None => continue,
                 Format::Step => format!("{}.step", self.stem),
@@ -434,6 +438,17 @@ impl Output<'_> {
             }
             .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
             names.push(name);
+        }
+        // Only shapes whose solids share faces need numbers: parts have names.
+        if has_shared {
+            let failed = |error: ExportError| Failure::Surroundings(error.to_string());
+            for sheet in numbers::sheets(report, &built.assembly).map_err(failed)? {
+                let name = format!("{}.{}.csv", self.stem, sheet.name);
+                let text = table::csv(&sheet).map_err(failed)?;
+                std::fs::write(staging.join(&name), text)
+                    .map_err(|error| Failure::file("write to", self.folder, &error))?;
+                names.push(name);
+            }
         }
         for (name, bytes) in self.tables(report)? {
             std::fs::write(staging.join(&name), bytes)

@@ -9,6 +9,8 @@ pub mod file;
 pub mod grid;
 #[cfg(feature = "occt")]
 pub mod mesh;
+#[cfg(feature = "occt")]
+pub mod numbers;
 pub mod picture;
 #[cfg(feature = "occt")]
 pub mod report;
