@@ -18,6 +18,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use checked::{checked, from_text, source};
+use clinothem::export::grid;
 use clinothem::export::grid::format::Format;
 use clinothem::export::grid::frame::Cells;
 use clinothem::export::grid::key::Key;
@@ -25,7 +26,6 @@ use clinothem::export::grid::labels::OUTSIDE;
 use clinothem::export::grid::layers::{Layers, LayersError};
 use clinothem::export::grid::plan::{Division, Plan};
 use clinothem::export::grid::sampled::{Grid, Source};
-use clinothem::export::grid::{self};
 use clinothem::model::Model;
 use clinothem::model::owner::Owners;
 use clinothem::model::realisation::Realisation;

@@ -15,7 +15,7 @@ use crate::export::mesh::Triangulation;
 use crate::export::report::{LEAST_AREA, Parts, Report};
 use crate::export::vertical::Vertical;
 use crate::export::wells::entries::{WellEntry, Wells};
-use crate::export::{ExportError, brep, step, table, wells};
+use crate::export::{ExportError, brep, numbers, step, table, wells};
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
 use crate::model::wells::log::Logger;
@@ -457,7 +457,11 @@ impl Output<'_> {
         let (model, realisation) = (&built.model, &built.subject.realisation);
         let protocol = self.args.step_schema.into();
         let mut names = Vec::new();
-        for format in &self.formats(built) {
+        let formats = self.formats(built);
+        let has_shared = [Format::StepShared, Format::Brep]
+            .iter()
+            .any(|format| formats.contains(format));
+        for format in &formats {
             let name = match format {
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
@@ -488,6 +492,17 @@ impl Output<'_> {
             names.push(name);
         }
         names.extend(self.write_triangles(staging, built)?);
+        // Only shapes whose solids share faces need numbers: parts have names.
+        if has_shared {
+            let failed = |error: ExportError| Failure::Surroundings(error.to_string());
+            for sheet in numbers::sheets(report, &built.assembly).map_err(failed)? {
+                let name = format!("{}.{}.csv", self.stem, sheet.name);
+                let text = table::csv(&sheet).map_err(failed)?;
+                std::fs::write(staging.join(&name), text)
+                    .map_err(|error| Failure::file("write to", self.folder, &error))?;
+                names.push(name);
+            }
+        }
         for (name, bytes) in self.tables(report)? {
             std::fs::write(staging.join(&name), bytes)
                 .map_err(|error| Failure::file("write to", self.folder, &error))?;

@@ -18,6 +18,8 @@ pub mod irap;
 #[cfg(feature = "occt")]
 pub mod mesh;
 #[cfg(feature = "occt")]
+pub mod numbers;
+#[cfg(feature = "occt")]
 pub mod obj;
 #[cfg(feature = "occt")]
 pub mod part;

@@ -105,7 +105,8 @@ def test_vtk_reads_arrays_names_and_places(grid, boxes):
     found = {arrays.GetArrayName(n): vtk_to_numpy(arrays.GetArray(n)) for n in range(arrays.GetNumberOfArrays())}
     # VTK's cells: x fastest, then y, then z.
     assert np.array_equal(found["volume"], volumes.flatten(order="F"))
-    for number in np.random.default_rng(1).integers(0, volumes.size, 50):
+    # VTK makes no cells of hidden ones.
+    for number in np.random.default_rng(1).choice(np.flatnonzero(found["volume"] >= 0), 50):
         bounds = image.GetCell(int(number)).GetBounds()
         middle = [(bounds[2 * axis] + bounds[2 * axis + 1]) / 2 for axis in range(3)]
         assert np.allclose(middle, middles[np.unravel_index(number, COUNTS, order="F")])
