@@ -90,7 +90,7 @@ def test_glb_has_a_node_a_volume_upright(bodies):
 def test_tsurf_is_the_ply_in_world_coordinates(bodies):
     folder, _, volumes, _ = bodies
     report = json.loads((folder / "report.json").read_text())
-    origin = np.array(report["origin"])
+    origin = np.array(report["model"]["origin"])
     for name in volumes:
         surface = xtgeo.triangulated_surface_from_file(file_of(folder, "ts", name), fformat="tsurf")
         mesh = meshio.read(file_of(folder, "ply", name))
