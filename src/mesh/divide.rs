@@ -200,7 +200,7 @@ impl Course<'_> {
                 let ends = [(a.uv[at], a.point), (b.uv[at], b.point)];
                 self.limits
                     .turns_little(length, at_a.normals[at], at_b.normals[at])
-                    && self.limits.chord_holds(side.support, ends)
+                    && self.limits.edge_holds(side.support, ends)
             })
     }
 
