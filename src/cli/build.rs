@@ -135,12 +135,9 @@ impl Format {
             Self::Stl => Some(triangles::Format::Stl),
             Self::Ply => Some(triangles::Format::Ply),
             Self::Ts => Some(triangles::Format::Ts),
-            Self::Step
-            | Self::StepShared
-            | Self::Brep
-            | Self::Xlsx
-            | Self::Csv
-            | Self::None => None,
+            Self::Step | Self::StepShared | Self::Brep | Self::Xlsx | Self::Csv | Self::None => {
+                None
+            }
         }
     }
 }

@@ -34,9 +34,9 @@ mod summary;
 mod surfaces;
 mod traces;
 #[cfg(feature = "occt")]
-mod tubes;
-#[cfg(feature = "occt")]
 mod triangles;
+#[cfg(feature = "occt")]
+mod tubes;
 #[cfg(feature = "occt")]
 mod view;
 

@@ -9,9 +9,9 @@ pub mod brep;
 pub mod cps3;
 pub mod data;
 pub mod file;
-pub mod grid;
 #[cfg(feature = "occt")]
 pub mod glb;
+pub mod grid;
 #[cfg(feature = "occt")]
 pub mod heights;
 pub mod irap;

@@ -89,7 +89,9 @@ impl Table {
             let design = member.design.iter();
             let design = design.filter_map(|(key, value)| Some((key.clone(), value.parse().ok()?)));
             cells.push([
-                design.filter(|(_, value): &(_, f64)| value.is_finite()).collect(),
+                design
+                    .filter(|(_, value): &(_, f64)| value.is_finite())
+                    .collect(),
                 drawn(report),
                 measures(report),
             ]);
@@ -104,7 +106,10 @@ impl Table {
         }
         let mut columns = Vec::new();
         let mut places: [BTreeMap<String, usize>; 3] = Default::default();
-        for (part, role) in [Role::Design, Role::Drawn, Role::Measure].into_iter().enumerate() {
+        for (part, role) in [Role::Design, Role::Drawn, Role::Measure]
+            .into_iter()
+            .enumerate()
+        {
             for (name, _) in cells.iter().flat_map(|cells| &cells[part]) {
                 if !places[part].contains_key(name) {
                     places[part].insert(name.clone(), columns.len());
@@ -378,7 +383,11 @@ mod tests {
         let (one, mut two) = (report(), report());
         two["connectivity"] = json!({ "new": 1 });
         let table = Table::of([(&first, &one), (&second, &two)].into_iter());
-        let at = |name| table.measure(name).map(|at| [0, 1].map(|row: usize| table.rows[row].values[at]));
+        let at = |name| {
+            table
+                .measure(name)
+                .map(|at| [0, 1].map(|row: usize| table.rows[row].values[at]))
+        };
         assert_eq!(at("connectivity.gamma"), Some([Some(0.68), None]));
         assert_eq!(at("connectivity.new"), Some([None, Some(1.0)]));
     }

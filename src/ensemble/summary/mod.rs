@@ -247,8 +247,7 @@ impl OfScenario {
             .parameters()
             .filter_map(|(at, parameter)| {
                 let pairs = column(at).into_iter().zip(&results);
-                let pairs: Vec<(f64, f64)> =
-                    pairs.filter_map(|(x, y)| Some((x?, (*y)?))).collect();
+                let pairs: Vec<(f64, f64)> = pairs.filter_map(|(x, y)| Some((x?, (*y)?))).collect();
                 let rank_correlation =
                     rank_correlation(&pairs).filter(|_| pairs.len() >= LEAST_RANKED)?;
                 Some(Correlation {

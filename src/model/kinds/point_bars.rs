@@ -238,7 +238,8 @@ impl Kind for PointBarsSpec {
         let least = self.least_turn_deg;
         let bends = bends(reach.trajectory(), width, least.to_radians());
         if bends.is_empty() {
-            let none = format!("no bend that turns by {least}° or more and is longer than two widths");
+            let none =
+                format!("no bend that turns by {least}° or more and is longer than two widths");
             return match site.host {
                 // Whether a channel that is drawn has bends is chance, and none is as good as some.
                 Some((name, channel)) if channel.is_drawn() => Ok(Made {
