@@ -560,10 +560,10 @@ impl Output<'_> {
             return Ok(Vec::new());
         }
         let args = &self.args.triangles;
-        let fineness = args.fineness(&built.subject.plan);
+        let fineness = args.fineness(&built.subject.plan)?;
         let meshes = Triangulation::new(&built.assembly, &fineness)
             .and_then(|triangles| triangles.volumes(&built.assembly))
-            .map_err(|error| Failure::Surroundings(error.to_string()))?;
+            .map_err(|error| triangles::failed(&error))?;
         let meshes = meshes.into_iter().map(|mesh| (None, mesh)).collect();
         let origin = args.origin(&built.model);
         let parts = triangles::parts(

@@ -228,14 +228,14 @@ struct Made {
 
 impl Made {
     fn new(args: &Args, loaded: Loaded, cancel: &Cancel) -> Result<Self, Failure> {
-        let failed = |error: crate::export::ExportError| Failure::Surroundings(error.to_string());
+        let failed = |error: crate::export::ExportError| triangles::failed(&error);
         let mut made = if args.whole {
             let Loaded {
                 model, realisation, ..
             } = loaded;
             let plan = AssemblyPlan::new(&realisation)
                 .map_err(|error| Failure::Wrong(error.to_string()))?;
-            let fineness = args.triangles.fineness(&plan);
+            let fineness = args.triangles.fineness(&plan)?;
             Self {
                 sheets: Sheets::whole(&realisation, &fineness).map_err(failed)?,
                 model,
@@ -248,7 +248,7 @@ impl Made {
             let built = build::assemble(loaded, &args.engine, cancel, &progress)?;
             progress.stage("writing");
             let (realisation, plan) = (built.subject.realisation, built.subject.plan);
-            let fineness = args.triangles.fineness(&plan);
+            let fineness = args.triangles.fineness(&plan)?;
             let sheets =
                 Sheets::trimmed(&built.assembly, &plan, &realisation, &fineness).map_err(failed)?;
             progress.done();

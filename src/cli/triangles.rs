@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::args::finite;
 use super::failure::Failure;
+use crate::export::ExportError;
 use crate::export::mesh::VolumeMesh;
 use crate::export::part::{Part, Parts};
 use crate::export::vertical::Vertical;
@@ -21,6 +22,17 @@ use crate::model::realisation::Realisation;
 const CHORD: f64 = 2e-4;
 /// Largest angle between the surface's normals along a triangle's side (rad): 17 degrees.
 const ANGLE: f64 = 0.3;
+
+/// The least chord that may be asked for, as a fraction of the diagonal.
+const LEAST: f64 = 1e-7;
+
+/// Why triangles could not be made or written: what was asked for, or the surroundings.
+pub(super) fn failed(error: &ExportError) -> Failure {
+    match error {
+        ExportError::Mesh(_) => Failure::Wrong(error.to_string()),
+        _ => Failure::Surroundings(error.to_string()),
+    }
+}
 
 /// How fine triangles are, and where they are.
 #[derive(Clone, Debug, clap::Args)]
@@ -47,12 +59,20 @@ pub(super) fn above_zero(text: &str) -> Result<f64, String> {
 
 impl TriangleArgs {
     /// How fine triangles of a model are.
-    pub(super) fn fineness(&self, plan: &AssemblyPlan) -> Fineness {
+    pub(super) fn fineness(&self, plan: &AssemblyPlan) -> Result<Fineness, Failure> {
         let diagonal = plan.low().distance(plan.high());
-        Fineness {
-            chord: self.chord.unwrap_or(CHORD * diagonal),
-            angle: ANGLE,
+        let chord = self.chord.unwrap_or(CHORD * diagonal);
+        if chord < LEAST * diagonal {
+            return Err(Failure::Wrong(format!(
+                "--chord {chord} is below a ten-millionth of the domain's diagonal ({diagonal:.1} m); exact surfaces are in STEP, \
+                 for triangles take {:e} or more",
+                LEAST * diagonal
+            )));
         }
+        Ok(Fineness {
+            chord,
+            angle: ANGLE,
+        })
     }
 
     /// What is added to coordinates in files that are in the world.

@@ -60,7 +60,7 @@ impl Triangulation {
             .map(only_face)
             .collect::<Result<_, _>>()?;
         let tables = tables(&boundary).map_err(failed)?;
-        let mesh = mesh::triangulate(&tables, fineness).map_err(failed)?;
+        let mesh = mesh::triangulate(&tables, fineness)?;
         Ok(Self {
             tables,
             mesh,

@@ -67,6 +67,9 @@ pub enum ExportError {
         /// Why.
         source: crate::nurbs::SurfaceError,
     },
+    /// There are no triangles.
+    #[error("triangles: {0}")]
+    Mesh(#[from] crate::mesh::MeshError),
     /// What a STEP file was to hold does not fit together.
     #[error("STEP: {0}")]
     Step(String),

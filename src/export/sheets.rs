@@ -105,7 +105,7 @@ impl Sheets {
                     kernel::faces(&assembly::shapes::sheet(role, &surface)).map_err(failed)?;
                 let boundary = kernel::boundary(&[shape]).map_err(failed)?;
                 let tables = tables(&boundary).map_err(failed)?;
-                let mesh = mesh::triangulate(&tables, fineness).map_err(failed)?;
+                let mesh = mesh::triangulate(&tables, fineness)?;
                 let name = format!("{name}/{}", role.name());
                 let same = sheets
                     .all

@@ -256,6 +256,10 @@ fn arguments_that_make_no_triangles_or_grids_are_refused() {
             "-1 is not above 0",
         ),
         (
+            "build model.toml --quiet --formats glb --chord 1e-6",
+            "--chord 0.000001 is below a ten-millionth of the domain's diagonal (362.8 m)",
+        ),
+        (
             "build model.toml --formats glb --exaggeration x",
             "not a finite number",
         ),
