@@ -12,12 +12,12 @@ use super::args::ModelArgs;
 use super::build::{Engine, Format, ProofLevel};
 use super::failure::Failure;
 use super::{interrupt, load, print, scenarios};
+use crate::ensemble::Member;
 use crate::ensemble::design::Design;
 use crate::ensemble::folder::{Folder, FolderError, Manifest, Settled};
 use crate::ensemble::member::{Changes, Scenario};
 use crate::ensemble::summary::{self, Summary};
 use crate::ensemble::workers::{self, End, Ended, Job, WorkersError};
-use crate::ensemble::Member;
 use crate::model::{Model, Source, Stratum};
 
 /// Make many realisations of a model, and say what they are as a whole.
@@ -146,9 +146,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .iter()
         .map(|member| Some(folder.settled(member, &member.key(&job.common))?.outcome))
         .collect();
-    let due: Vec<usize> = (0..members.len()).filter(|at| kept[*at].is_none()).collect();
+    let due: Vec<usize> = (0..members.len())
+        .filter(|at| kept[*at].is_none())
+        .collect();
     let progress = Progress::new(args.quiet || args.json, members.len(), due.len());
-    let ended = workers::make(&members, &due, &job, &folder, &cancel, &|end| progress.tell(end));
+    let ended = workers::make(&members, &due, &job, &folder, &cancel, &|end| {
+        progress.tell(end)
+    });
     progress.done();
     let ended = ended.map_err(|error| match error {
         WorkersError::Cancelled => Failure::Interrupted(INTERRUPTED),
@@ -205,7 +209,10 @@ fn tell(args: &Args, summary: &Summary, folder: &Folder, kept: usize) -> Result<
 fn words(summary: &Summary, folder: &Path, kept: usize) -> String {
     let mut lines = Vec::new();
     for one in &summary.scenarios {
-        let name = one.name.as_ref().map_or(String::new(), |name| format!("{name}: "));
+        let name = one
+            .name
+            .as_ref()
+            .map_or(String::new(), |name| format!("{name}: "));
         lines.push(format!("{name}{} of {} realisations", one.made, one.of));
         if let (Some(spread), Some((nearest, _))) = (one.spread(&summary.result), &one.nearest) {
             lines.push(format!(
@@ -417,7 +424,11 @@ fn job(args: &Args, manifest: &Manifest, members: usize) -> Result<Job, Failure>
         Failure::Surroundings(format!("the program cannot find itself: {error}"))
     })?;
     let processors = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let workers = args.workers.map_or(processors, usize::from).min(members).max(1);
+    let workers = args
+        .workers
+        .map_or(processors, usize::from)
+        .min(members)
+        .max(1);
     let share = || {
         let all = workers::memory_of_the_machine()?;
         Some((all / 10 * 9 / workers as u64).max(LEAST_MEMORY))
@@ -487,7 +498,11 @@ fn summarise(
         ("unmade.csv", summary::unmade(&summary)),
     ];
     for (name, table) in tables {
-        write(folder, name, table.map_err(|error| failed(&error))?.as_bytes())?;
+        write(
+            folder,
+            name,
+            table.map_err(|error| failed(&error))?.as_bytes(),
+        )?;
     }
     let json = summary.to_json().map_err(|error| failed(&error))?;
     write(folder, "summary.json", json.as_bytes())?;
@@ -497,7 +512,11 @@ fn summarise(
         let png = plot.png().map_err(|error| failed(&error))?;
         write(folder, &format!("{}.png", plot.name), &png)?;
     }
-    write(folder, "summary.html", summary::page(&summary, &plots).as_bytes())?;
+    write(
+        folder,
+        "summary.html",
+        summary::page(&summary, &plots).as_bytes(),
+    )?;
     Ok(summary)
 }
 
@@ -519,7 +538,8 @@ impl Progress {
             ProgressDrawTarget::stderr()
         };
         let bar = ProgressBar::with_draw_target(Some(due as u64), target);
-        let words = format!("[{{bar:30}}] {{pos}}/{{len}} of {of}  {{elapsed}}, {{eta}} to go  {{msg}}");
+        let words =
+            format!("[{{bar:30}}] {{pos}}/{{len}} of {of}  {{elapsed}}, {{eta}} to go  {{msg}}");
         let style = ProgressStyle::with_template(&words);
         bar.set_style(
             style
@@ -535,7 +555,8 @@ impl Progress {
     fn tell(&self, ended: &Ended) {
         self.bar.inc(1);
         if ended.end != End::Settled(Settled::Made) {
-            self.bar.set_message(format!("the last that failed: {}", ended.end.word()));
+            self.bar
+                .set_message(format!("the last that failed: {}", ended.end.word()));
         }
     }
 

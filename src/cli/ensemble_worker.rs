@@ -24,7 +24,9 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(bytes) = args.memory_limit {
         workers::limit_memory(bytes).map_err(|error| {
-            Failure::Surroundings(format!("the memory cannot be limited to {bytes} bytes: {error}"))
+            Failure::Surroundings(format!(
+                "the memory cannot be limited to {bytes} bytes: {error}"
+            ))
         })?;
     }
     worker::end_with_the_parent()

@@ -19,7 +19,9 @@ struct Words {
 /// Reads a scenario.
 pub(super) fn read(text: &str) -> Result<Scenario, String> {
     let (name, rest) = text.split_once(':').ok_or_else(|| {
-        format!("`{text}` has no name; write 'NAME: --without ID', or 'NAME:' for the model as it is")
+        format!(
+            "`{text}` has no name; write 'NAME: --without ID', or 'NAME:' for the model as it is"
+        )
     })?;
     let name = name.trim();
     let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';

@@ -276,8 +276,7 @@ mod tests {
 
     #[test]
     fn a_row_has_its_seed_and_a_value_of_each_key() {
-        let text =
-            "\u{feff}seed, feature.old-channel.width ,domain.z\r\n# of the wells\r\n7,30,\"[-40, 0]\"\r\n8,35,\"[-20, 0]\"\r\n";
+        let text = "\u{feff}seed, feature.old-channel.width ,domain.z\r\n# of the wells\r\n7,30,\"[-40, 0]\"\r\n8,35,\"[-20, 0]\"\r\n";
         let design = design(text).unwrap();
         assert_eq!(design.keys, ["feature.old-channel.width", "domain.z"]);
         assert_eq!(design.rows[0].seed, Some(7));
@@ -295,8 +294,14 @@ mod tests {
             ("a,b,a\n1,2,3\n", "column 3 has the name of column 1, `a`"),
             ("a=3,b\n1,2\n", "column 1 is named `a=3`"),
             ("a,b\n1,2\n3\n", "line 3"),
-            ("seed,b\n1,2\n-3,4\n", "row 2 (line 3), column `seed`: `-3` is no seed"),
-            ("a,b\n1,2\n3,\n", "row 2 (line 3), column `b`: the cell is empty"),
+            (
+                "seed,b\n1,2\n-3,4\n",
+                "row 2 (line 3), column `seed`: `-3` is no seed",
+            ),
+            (
+                "a,b\n1,2\n3,\n",
+                "row 2 (line 3), column `b`: the cell is empty",
+            ),
         ] {
             let error = design(text).unwrap_err();
             assert!(error.contains(told), "{text:?}: {error}");
@@ -305,14 +310,21 @@ mod tests {
 
     #[test]
     fn what_is_no_model_is_told_with_row_and_column() {
-        let told = |text: &str| design(text).unwrap().check(&source()).unwrap_err().to_string();
+        let told = |text: &str| {
+            design(text)
+                .unwrap()
+                .check(&source())
+                .unwrap_err()
+                .to_string()
+        };
         let unknown = told("feature.old-chanel.width\n30\n");
         assert!(
             unknown.starts_with("design.csv, row 1 (line 2), column `feature.old-chanel.width`:")
                 && unknown.contains("did you mean `old-channel`?"),
             "{unknown}"
         );
-        let wrong = told("feature.old-channel.width,feature.old-channel.depth\n30,4\n31,-5\n32,x\n");
+        let wrong =
+            told("feature.old-channel.width,feature.old-channel.depth\n30,4\n31,-5\n32,x\n");
         assert!(
             wrong.starts_with("design.csv, row 2 (line 3), column `feature.old-channel.depth`:"),
             "{wrong}"

@@ -90,7 +90,9 @@ impl End {
             }
             Self::OutOfMemory(limit) => {
                 let mebibytes = limit / 1024 / 1024;
-                format!("it wanted more than {mebibytes} MiB; allow more with --memory-limit, or take fewer --workers")
+                format!(
+                    "it wanted more than {mebibytes} MiB; allow more with --memory-limit, or take fewer --workers"
+                )
             }
         }
     }
@@ -116,7 +118,9 @@ pub enum WorkersError {
     #[error("interrupted")]
     Cancelled,
     /// A process could not be started.
-    #[error("the program could not be started again: {0}; end other programs, or take fewer --workers")]
+    #[error(
+        "the program could not be started again: {0}; end other programs, or take fewer --workers"
+    )]
     Start(io::Error),
     /// A file could not be written or moved.
     #[error("cannot write to {}: {source}", path.display())]
@@ -295,9 +299,13 @@ fn end_of(status: ExitStatus, words: String, memory_limit: Option<u64>) -> End {
     if status.success() {
         return End::Settled(Settled::Made);
     }
-    let wants_memory = ["memory allocation of", "bad_alloc", "Cannot allocate memory"]
-        .iter()
-        .any(|sign| words.contains(sign));
+    let wants_memory = [
+        "memory allocation of",
+        "bad_alloc",
+        "Cannot allocate memory",
+    ]
+    .iter()
+    .any(|sign| words.contains(sign));
     match (code, memory_limit) {
         (_, Some(limit)) if wants_memory => End::OutOfMemory(limit),
         (Some(code), _) if ANSWERS.contains(&code) => {
@@ -338,7 +346,9 @@ pub fn limit_memory(bytes: u64) -> io::Result<()> {
 /// The memory of the machine in bytes, where the system tells (Linux).
 pub fn memory_of_the_machine() -> Option<u64> {
     let text = fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("MemTotal:"))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes * 1024)
 }

@@ -37,9 +37,8 @@ pub(crate) fn apply(
                         let taken = features.filter(|_| depth == 2);
                         let taken =
                             taken.and_then(|list| alike::inherited(tree, list, table, &step.key));
-                        let node = taken.unwrap_or_else(|| {
-                            tree.add(step.key_span, Value::Table(Vec::new()))
-                        });
+                        let node = taken
+                            .unwrap_or_else(|| tree.add(step.key_span, Value::Table(Vec::new())));
                         put(tree, table, step, node);
                         node
                     }

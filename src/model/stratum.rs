@@ -66,7 +66,9 @@ fn shuffled(number: u64, half: u32, key: &Sha256) -> u64 {
         hash.update([round]);
         hash.update(right.to_le_bytes());
         let hash = hash.finalize();
-        let mixed = hash[..8].iter().fold(0, |all, byte| all << 8 | u64::from(*byte));
+        let mixed = hash[..8]
+            .iter()
+            .fold(0, |all, byte| all << 8 | u64::from(*byte));
         (left, right) = (right, (left ^ mixed) & mask);
     }
     left << half | right
@@ -101,8 +103,11 @@ mod tests {
     fn every_realisation_of_a_hypercube_has_a_stratum_of_its_own() {
         for n in [1, 2, 3, 4, 5, 16, 17, 100, 1000] {
             for parameter in ["width", "depth"] {
-                let stratum =
-                    |i| Stratum::new(i, n).unwrap().number_of(["channel", "3", parameter], 9);
+                let stratum = |i| {
+                    Stratum::new(i, n)
+                        .unwrap()
+                        .number_of(["channel", "3", parameter], 9)
+                };
                 let mut all: Vec<u64> = (1..=n).map(stratum).collect();
                 all.sort_unstable();
                 assert_eq!(all, (0..n).collect::<Vec<_>>());
@@ -175,8 +180,14 @@ mod tests {
             .collect();
         numbers.sort_by(f64::total_cmp);
         let q = 0.674_489_75;
-        assert!(numbers[0] < -q && numbers[1] > -q && numbers[1] < 0.0, "{numbers:?}");
-        assert!(numbers[2] > 0.0 && numbers[2] < q && numbers[3] > q, "{numbers:?}");
+        assert!(
+            numbers[0] < -q && numbers[1] > -q && numbers[1] < 0.0,
+            "{numbers:?}"
+        );
+        assert!(
+            numbers[2] > 0.0 && numbers[2] < q && numbers[3] > q,
+            "{numbers:?}"
+        );
     }
 
     #[test]

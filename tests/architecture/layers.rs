@@ -18,7 +18,9 @@ const LAYERS: [(&str, &[&str]); 9] = [
     ("ensemble", &["export", "assembly", "model"]),
     (
         "cli",
-        &["ensemble", "export", "assembly", "model", "features", "nurbs"],
+        &[
+            "ensemble", "export", "assembly", "model", "features", "nurbs",
+        ],
     ),
 ];
 

@@ -142,11 +142,15 @@ fn one_that_takes_too_long_or_wants_too_much_ends_alone() {
         ("--memory-limit 400", "memory limit", "more than 400 MiB"),
     ];
     for (limit, outcome, words) in limits {
-        let arguments = format!("ensemble model.toml --design design.csv --quiet --force -o out {limit}");
+        let arguments =
+            format!("ensemble model.toml --design design.csv --quiet --force -o out {limit}");
         let output = sandbox.run(&arguments);
         let errors = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{errors}");
-        assert!(errors.contains("1 of 3 realisations could not be made"), "{errors}");
+        assert!(
+            errors.contains("1 of 3 realisations could not be made"),
+            "{errors}"
+        );
         let files = files(&sandbox, "out");
         let unmade = table(&files, "unmade.csv");
         assert_eq!(unmade[0]["outcome"], outcome, "{unmade:?}");

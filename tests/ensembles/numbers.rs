@@ -16,11 +16,17 @@ fn realisations_are_those_of_build_and_the_same_for_any_number_of_workers() {
     sandbox.answer("build model.toml --seed 6 --formats none -o build --quiet");
     let built = files(&sandbox, "build");
     for name in ["report.json", "volumes.csv"] {
-        assert!(built[name] == one[&format!("realisations/0003/{name}")], "{name}");
+        assert!(
+            built[name] == one[&format!("realisations/0003/{name}")],
+            "{name}"
+        );
     }
     // As many as asked, and with more asked those are kept.
     let answer = sandbox.answer("ensemble model.toml --seeds 4..10 -o one");
-    assert!(answer.contains("7 of 7 realisations") && answer.contains("6 were there from before"), "{answer}");
+    assert!(
+        answer.contains("7 of 7 realisations") && answer.contains("6 were there from before"),
+        "{answer}"
+    );
 }
 
 #[test]
@@ -32,24 +38,48 @@ fn the_table_has_what_the_reports_have_and_quantiles_are_its() {
     assert_eq!(rows.len(), 21);
     let mut sizes = Vec::new();
     for row in &rows {
-        let report = json(&files, &format!("realisations/{}/report.json", row["realisation"]));
+        let report = json(
+            &files,
+            &format!("realisations/{}/report.json", row["realisation"]),
+        );
         assert_eq!(row["seed"], report["model"]["seed"].to_string());
         let young = &report["volumes"].as_array().unwrap()[2];
         assert_eq!(young["name"], "young-channel");
-        assert_eq!(number(&row["drawn.young-channel.width"]), young["drawn"]["width"].as_f64().unwrap());
-        assert_eq!(number(&row["feature.young-channel.volume_m3"]), young["volume_m3"].as_f64().unwrap());
+        assert_eq!(
+            number(&row["drawn.young-channel.width"]),
+            young["drawn"]["width"].as_f64().unwrap()
+        );
+        assert_eq!(
+            number(&row["feature.young-channel.volume_m3"]),
+            young["volume_m3"].as_f64().unwrap()
+        );
         let pores = report["totals"]["pore_volume_m3"].as_f64().unwrap();
         assert_eq!(number(&row["pore_volume_m3"]), pores);
-        assert_eq!(number(&row["net_to_gross"]), report["net_to_gross"].as_f64().unwrap());
+        assert_eq!(
+            number(&row["net_to_gross"]),
+            report["net_to_gross"].as_f64().unwrap()
+        );
         sizes.push((pores, row["realisation"].clone()));
     }
     // Of 21 values in order, type 7 has P90 at the third, P50 at the eleventh, P10 at the nineteenth.
     sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let quantiles = table(&files, "quantiles.csv");
-    let pores = quantiles.iter().find(|row| row["measure"] == "pore_volume_m3").unwrap();
+    let pores = quantiles
+        .iter()
+        .find(|row| row["measure"] == "pore_volume_m3")
+        .unwrap();
     assert_eq!(pores["n"], "21");
-    for (name, at) in [("min", 0), ("low_p90", 2), ("mid_p50", 10), ("high_p10", 18), ("max", 20)] {
-        assert!((number(&pores[name]) - sizes[at].0).abs() < 1e-9 * sizes[at].0, "{name}");
+    for (name, at) in [
+        ("min", 0),
+        ("low_p90", 2),
+        ("mid_p50", 10),
+        ("high_p10", 18),
+        ("max", 20),
+    ] {
+        assert!(
+            (number(&pores[name]) - sizes[at].0).abs() < 1e-9 * sizes[at].0,
+            "{name}"
+        );
     }
     let summary = json(&files, "summary.json");
     let scenario = &summary["scenarios"][0];
@@ -58,7 +88,10 @@ fn the_table_has_what_the_reports_have_and_quantiles_are_its() {
     // A channel is the wider the more sand there is, and width is all that is drawn of its size.
     let strongest = &scenario["rank_correlations"][0];
     assert_eq!(strongest["parameter"], "young-channel.width");
-    assert!(strongest["rank_correlation"].as_f64().unwrap() > 0.8, "{strongest}");
+    assert!(
+        strongest["rank_correlation"].as_f64().unwrap() > 0.8,
+        "{strongest}"
+    );
     let page = String::from_utf8(files["summary.html"].clone()).unwrap();
     assert!(page.contains("<svg") && !page.contains("src=") && !page.contains("href="));
     assert!(files["tornado.png"].starts_with(b"\x89PNG"));
@@ -72,9 +105,15 @@ fn a_design_sets_what_its_table_says_and_nothing_else_is_drawn() {
     let output = sandbox.run("ensemble model.toml --design design.csv -o out");
     assert!(output.status.success());
     let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(errors.contains("3 realisation(s) are too few for P90 and P10"), "{errors}");
+    assert!(
+        errors.contains("3 realisation(s) are too few for P90 and P10"),
+        "{errors}"
+    );
     let rows = table(&files(&sandbox, "out"), "realisations.csv");
-    let widths: Vec<&str> = rows.iter().map(|row| row["design.feature.old-channel.width"].as_str()).collect();
+    let widths: Vec<&str> = rows
+        .iter()
+        .map(|row| row["design.feature.old-channel.width"].as_str())
+        .collect();
     assert_eq!(widths, ["50", "60", "70"]);
     assert!(rows.iter().all(|row| row["seed"] == "1"));
     // The older channel is straight and at its full depth: its section is in proportion to its width.
@@ -93,7 +132,11 @@ fn a_hypercube_has_a_draw_in_every_stratum_and_each_can_be_made_alone() {
     let rows = table(&files, "realisations.csv");
     // The distribution function of the triangular distribution from 40 to 60 about 50.
     let share = |width: f64| {
-        if width < 50.0 { (width - 40.0).powi(2) / 200.0 } else { 1.0 - (60.0 - width).powi(2) / 200.0 }
+        if width < 50.0 {
+            (width - 40.0).powi(2) / 200.0
+        } else {
+            1.0 - (60.0 - width).powi(2) / 200.0
+        }
     };
     let mut strata: Vec<i64> = rows
         .iter()
@@ -109,7 +152,14 @@ fn a_hypercube_has_a_draw_in_every_stratum_and_each_can_be_made_alone() {
 #[test]
 fn scenarios_differ_by_what_they_change_and_by_no_draw() {
     let sandbox = Sandbox::of(QUICK);
-    let scenarios = ["--scenario", "all:", "--scenario", "young: --without old-channel", "--scenario", "deep: --set feature.young-channel.depth=8"];
+    let scenarios = [
+        "--scenario",
+        "all:",
+        "--scenario",
+        "young: --without old-channel",
+        "--scenario",
+        "deep: --set feature.young-channel.depth=8",
+    ];
     let output = sandbox
         .command()
         .args("ensemble model.toml -n 5 --quiet -o out".split(' '))

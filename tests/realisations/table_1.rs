@@ -58,13 +58,20 @@ impl Row {
         let n = draws.len() as f64;
         assert!(draws.len() >= DRAWS, "{name}: {n} draws");
         let (least, greatest) = (draws[0], draws[draws.len() - 1]);
-        assert!(self.low <= least && greatest <= self.high, "{name}: {least} to {greatest}");
+        assert!(
+            self.low <= least && greatest <= self.high,
+            "{name}: {least} to {greatest}"
+        );
         // Both ends are reached: 10 000 draws of a triangular distribution come to within some hundredths of them.
         let near = 0.06 * (self.high - self.low);
-        assert!(least < self.low + near && greatest > self.high - near, "{name}: {least} to {greatest}");
+        assert!(
+            least < self.low + near && greatest > self.high - near,
+            "{name}: {least} to {greatest}"
+        );
         let distance = draws.iter().enumerate().fold(0.0_f64, |most, (at, value)| {
             let share = self.share(*value);
-            most.max(share - at as f64 / n).max((at + 1) as f64 / n - share)
+            most.max(share - at as f64 / n)
+                .max((at + 1) as f64 / n - share)
         });
         let bound = 1.95 / n.sqrt() + repeated;
         assert!(distance < bound, "{name}: {distance}, at most {bound}");
@@ -77,12 +84,19 @@ fn draws(realisation: &Realisation, found: &mut BTreeMap<String, Vec<f64>>) {
     let mut seen = BTreeSet::new();
     for instance in &realisation.instances {
         let volume = &realisation.volumes[instance.volume];
-        let own = if volume.kind == "channel" { volume.name.as_str() } else { &volume.feature };
+        let own = if volume.kind == "channel" {
+            volume.name.as_str()
+        } else {
+            &volume.feature
+        };
         for (parameter, value) in &instance.drawn {
             if seen.insert((own.to_owned(), parameter.clone())) {
                 let name: String = parameter.chars().filter(|c| !c.is_ascii_digit()).collect();
                 let name = name.replace("-.", ".");
-                found.entry(name.trim_end_matches('-').to_owned()).or_default().push(*value);
+                found
+                    .entry(name.trim_end_matches('-').to_owned())
+                    .or_default()
+                    .push(*value);
             }
         }
     }
@@ -98,9 +112,14 @@ fn channels_follow_the_published_distributions_and_are_drawn_again_as_often_as_t
         ("trajectory.wavelength", triangular(50.0, 475.0, 3000.0)),
     ];
     let count = format!("feature.channel.count={DRAWS}");
-    let model = model(CASE_STUDY, &[&count, "domain.x=[0, 100]", "domain.y=[0, 100]"]);
+    let model = model(
+        CASE_STUDY,
+        &[&count, "domain.x=[0, 100]", "domain.y=[0, 100]"],
+    );
     let selection = Selection {
-        without: ["lag", "bar", "transgression", "flooding"].map(str::to_owned).to_vec(),
+        without: ["lag", "bar", "transgression", "flooding"]
+            .map(str::to_owned)
+            .to_vec(),
         max_level: None,
     };
     let realisation = Realisation::new(&model, &selection.found_in(&model).unwrap()).unwrap();
@@ -113,11 +132,22 @@ fn channels_follow_the_published_distributions_and_are_drawn_again_as_often_as_t
     }
     // Bends tighter than the channel's half-width; and necks, which overlap somewhat earlier.
     let folds = share_of_folds();
-    let necks = realisation.rejections.iter().filter(|one| one.reason.contains("neck"));
+    let necks = realisation
+        .rejections
+        .iter()
+        .filter(|one| one.reason.contains("neck"));
     let necks = necks.map(|one| f64::from(one.count)).sum::<f64>() / DRAWS as f64;
     let miss = (repeated - necks - folds).abs();
-    assert!(miss < 5.0 * (folds / DRAWS as f64).sqrt(), "{repeated} of which {necks} necks, {folds} expected");
-    assert!(realisation.rejections.iter().all(|one| one.feature == "channel"));
+    assert!(
+        miss < 5.0 * (folds / DRAWS as f64).sqrt(),
+        "{repeated} of which {necks} necks, {folds} expected"
+    );
+    assert!(
+        realisation
+            .rejections
+            .iter()
+            .all(|one| one.feature == "channel")
+    );
 }
 
 #[test]

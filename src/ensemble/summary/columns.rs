@@ -89,7 +89,9 @@ impl Table {
             let design = member.design.iter();
             let design = design.filter_map(|(key, value)| Some((key.clone(), value.parse().ok()?)));
             cells.push([
-                design.filter(|(_, value): &(_, f64)| value.is_finite()).collect(),
+                design
+                    .filter(|(_, value): &(_, f64)| value.is_finite())
+                    .collect(),
                 drawn(report),
                 measures(report),
             ]);
@@ -104,7 +106,10 @@ impl Table {
         }
         let mut columns = Vec::new();
         let mut places: [BTreeMap<String, usize>; 3] = Default::default();
-        for (part, role) in [Role::Design, Role::Drawn, Role::Measure].into_iter().enumerate() {
+        for (part, role) in [Role::Design, Role::Drawn, Role::Measure]
+            .into_iter()
+            .enumerate()
+        {
             for (name, _) in cells.iter().flat_map(|cells| &cells[part]) {
                 if !places[part].contains_key(name) {
                     places[part].insert(name.clone(), columns.len());
@@ -173,7 +178,8 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or_default()
 }
 
-/// What was drawn: for the domain, then for each volume. Draws of one instance that several volumes tell of are told once.
+/// What was drawn: for the domain, then for each volume. Of a parameter that a feature has several times (of each channel, of each
+/// clinoform) there is the mean besides: that of one channel of many decides little.
 fn drawn(report: &Value) -> Numbers {
     let mut numbers = Numbers::new();
     let of = |name: &str, drawn: &Value, numbers: &mut Numbers| {
@@ -184,10 +190,37 @@ fn drawn(report: &Value) -> Numbers {
         }
     };
     of("domain", &report["domain"]["drawn"], &mut numbers);
+    let mut of_features: Vec<(String, f64, u32)> = Vec::new();
     for volume in array(report, "volumes") {
-        of(text(volume, "name"), &volume["drawn"], &mut numbers);
+        let drawn = &volume["drawn"];
+        of(text(volume, "name"), drawn, &mut numbers);
+        for (parameter, value) in drawn.as_object().into_iter().flatten() {
+            let Some(value) = value.as_f64() else {
+                continue;
+            };
+            let name = format!("{}.{}.mean", text(volume, "feature"), unnumbered(parameter));
+            match of_features.iter_mut().find(|(known, ..)| *known == name) {
+                Some((_, sum, count)) => {
+                    *sum += value;
+                    *count += 1;
+                }
+                None => of_features.push((name, value, 1)),
+            }
+        }
     }
+    let several = of_features.into_iter().filter(|(.., count)| *count > 1);
+    numbers.extend(several.map(|(name, sum, count)| (name, sum / f64::from(count))));
     numbers
+}
+
+/// A parameter without the number of what it belongs to: `usf.width` of `usf-3.width`.
+fn unnumbered(parameter: &str) -> String {
+    let plain = |word: &str| match word.rsplit_once('-') {
+        Some((name, number)) if number.parse::<u32>().is_ok() => name.to_owned(),
+        _ => word.to_owned(),
+    };
+    let words: Vec<String> = parameter.split('.').map(plain).collect();
+    words.join(".")
 }
 
 /// What came of it: over the domain, by facies, by feature.
@@ -351,6 +384,7 @@ mod tests {
                 ("domain.top.level", Role::Drawn, Some(-2.0)),
                 ("ditch-1.width", Role::Drawn, Some(5.0)),
                 ("ditch-2.width", Role::Drawn, Some(6.0)),
+                ("ditch.width.mean", Role::Drawn, Some(5.5)),
                 measure("connectivity.bodies.a.area", 4.0),
                 measure("connectivity.gamma", 0.68),
                 measure("net_to_gross", 0.3),
@@ -373,12 +407,29 @@ mod tests {
     }
 
     #[test]
+    fn parameters_lose_the_number_of_what_they_belong_to_and_no_other() {
+        for (parameter, name) in [
+            ("width", "width"),
+            ("usf-3.width", "usf.width"),
+            ("spacing-12", "spacing"),
+            ("by-hand", "by-hand"),
+            ("properties.permeability.0", "properties.permeability.0"),
+        ] {
+            assert_eq!(unnumbered(parameter), name);
+        }
+    }
+
+    #[test]
     fn what_a_realisation_lacks_is_an_empty_cell() {
         let (first, second) = (member(1), member(2));
         let (one, mut two) = (report(), report());
         two["connectivity"] = json!({ "new": 1 });
         let table = Table::of([(&first, &one), (&second, &two)].into_iter());
-        let at = |name| table.measure(name).map(|at| [0, 1].map(|row: usize| table.rows[row].values[at]));
+        let at = |name| {
+            table
+                .measure(name)
+                .map(|at| [0, 1].map(|row: usize| table.rows[row].values[at]))
+        };
         assert_eq!(at("connectivity.gamma"), Some([Some(0.68), None]));
         assert_eq!(at("connectivity.new"), Some([None, Some(1.0)]));
     }

@@ -247,10 +247,10 @@ impl OfScenario {
             .parameters()
             .filter_map(|(at, parameter)| {
                 let pairs = column(at).into_iter().zip(&results);
-                let pairs: Vec<(f64, f64)> =
-                    pairs.filter_map(|(x, y)| Some((x?, (*y)?))).collect();
-                let rank_correlation =
-                    rank_correlation(&pairs).filter(|_| pairs.len() >= LEAST_RANKED)?;
+                let pairs: Vec<(f64, f64)> = pairs.filter_map(|(x, y)| Some((x?, (*y)?))).collect();
+                // What few realisations have goes with anything.
+                let is_common = pairs.len() >= LEAST_RANKED && 2 * pairs.len() >= rows.len();
+                let rank_correlation = rank_correlation(&pairs).filter(|_| is_common)?;
                 Some(Correlation {
                     parameter: parameter.to_owned(),
                     rank_correlation,

@@ -57,7 +57,11 @@ fn shown(value: f64) -> String {
             }
             out.push(digit);
         }
-        return if value < 0.0 { format!("−{out}") } else { out };
+        return if value < 0.0 {
+            format!("−{out}")
+        } else {
+            out
+        };
     }
     if value == value.trunc() {
         return format!("{value}");
@@ -115,9 +119,9 @@ pub fn page(summary: &Summary, plots: &[Plot]) -> String {
     );
     heading(&mut out, summary);
     for plot in plots {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<figure aria-label=\"{}\">{}</figure>\n",
+            "<figure aria-label=\"{}\">{}</figure>",
             escaped(&plot.caption),
             plot.svg
         );
@@ -126,15 +130,23 @@ pub fn page(summary: &Summary, plots: &[Plot]) -> String {
     strongest(&mut out, summary);
     unmade(&mut out, summary);
     realisations(&mut out, summary);
-    let _ = write!(out, "<script>{SCRIPT}</script></body></html>\n");
+    let _ = writeln!(out, "<script>{SCRIPT}</script></body></html>");
     out
 }
 
 fn heading(out: &mut String, summary: &Summary) {
     for one in &summary.scenarios {
-        let name = one.name.as_ref().map_or(String::new(), |name| format!("{}: ", escaped(name)));
-        let _ = write!(out, "<p>{name}{} of {} realisations were made.", one.made, one.of);
-        if let (Some(spread), Some((nearest, value))) = (one.spread(&summary.result), &one.nearest) {
+        let name = one
+            .name
+            .as_ref()
+            .map_or(String::new(), |name| format!("{}: ", escaped(name)));
+        let _ = write!(
+            out,
+            "<p>{name}{} of {} realisations were made.",
+            one.made, one.of
+        );
+        if let (Some(spread), Some((nearest, value))) = (one.spread(&summary.result), &one.nearest)
+        {
             let _ = write!(
                 out,
                 " {}: P90 {}, P50 {}, P10 {}; nearest to the P50 is realisation {} with {}.",
@@ -152,7 +164,7 @@ fn heading(out: &mut String, summary: &Summary) {
         "<p>P90 is what 90 % of the realisations exceed. The P50s of two quantities belong to no one realisation.</p>\n",
     );
     for warning in summary.warnings() {
-        let _ = write!(out, "<p class=\"warning\">{}</p>\n", escaped(&warning));
+        let _ = writeln!(out, "<p class=\"warning\">{}</p>", escaped(&warning));
     }
 }
 
@@ -171,7 +183,15 @@ fn end_table(out: &mut String) {
 
 fn spreads(out: &mut String, summary: &Summary) {
     let heads = [
-        "measure", "scenario", "n", "min", "low (P90)", "mid (P50)", "high (P10)", "max", "mean",
+        "measure",
+        "scenario",
+        "n",
+        "min",
+        "low (P90)",
+        "mid (P50)",
+        "high (P10)",
+        "max",
+        "mean",
         "standard deviation",
     ];
     begin_table(out, "Measures", &heads);
@@ -198,7 +218,11 @@ fn spreads(out: &mut String, summary: &Summary) {
 
 fn strongest(out: &mut String, summary: &Summary) {
     let title = format!("What decides {}", escaped(&summary.result));
-    begin_table(out, &title, &["parameter", "scenario", "rank correlation", "n"]);
+    begin_table(
+        out,
+        &title,
+        &["parameter", "scenario", "rank correlation", "n"],
+    );
     for one in &summary.scenarios {
         for correlation in one.correlations.iter().take(TORNADO) {
             let cells = [
@@ -217,9 +241,18 @@ fn unmade(out: &mut String, summary: &Summary) {
     if summary.unmade.is_empty() {
         return;
     }
-    begin_table(out, "Not made", &["realisation", "seed", "outcome", "words"]);
+    begin_table(
+        out,
+        "Not made",
+        &["realisation", "seed", "outcome", "words"],
+    );
     for one in &summary.unmade {
-        let cells = [&one.realisation, &one.seed.to_string(), &one.outcome, &one.words];
+        let cells = [
+            &one.realisation,
+            &one.seed.to_string(),
+            &one.outcome,
+            &one.words,
+        ];
         row(out, "td", cells.map(|text| Cell::text(text)));
     }
     end_table(out);

@@ -66,11 +66,15 @@ pub fn plots(summary: &Summary) -> Result<Vec<Plot>, PlotError> {
         return Ok(plots);
     }
     let title = &results.title;
-    plots.push(draw("histogram", format!("Distribution of {title}"), |area| {
-        histogram(area, &results)
-    })?);
+    plots.push(draw(
+        "histogram",
+        format!("Distribution of {title}"),
+        |area| histogram(area, &results),
+    )?);
     let caption = format!("Share of realisations that exceed a {title}");
-    plots.push(draw("exceedance", caption, |area| exceedance(area, &results))?);
+    plots.push(draw("exceedance", caption, |area| {
+        exceedance(area, &results)
+    })?);
     for scenario in &summary.scenarios {
         if scenario.correlations.is_empty() {
             continue;
@@ -103,7 +107,9 @@ fn draw(
     let drawn = {
         let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         let title = (FONT, 20).into_font().color(&INK);
-        let whole = area.fill(&WHITE).and_then(|()| area.titled(&caption, title));
+        let whole = area
+            .fill(&WHITE)
+            .and_then(|()| area.titled(&caption, title));
         match whole {
             Ok(rest) => plot(&rest).and_then(|()| Ok(area.present()?)),
             Err(error) => Err(error.into()),
@@ -194,10 +200,15 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
         let edge = |bin: usize| values.partition_point(|v| *v < range.start + width * bin as f64);
         (0..bins).map(|bin| edge(bin + 1) - edge(bin)).collect()
     };
-    let counted: Vec<Vec<usize>> = results.of.iter().map(|(_, values)| counts(values)).collect();
+    let counted: Vec<Vec<usize>> = results
+        .of
+        .iter()
+        .map(|(_, values)| counts(values))
+        .collect();
     let highest = counted.iter().flatten().copied().max().unwrap_or(1).max(1);
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .x_label_area_size(48)
         .y_label_area_size(64)
         .build_cartesian_2d(range.clone(), 0.0..highest as f64 * 1.08)?;
@@ -215,14 +226,17 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
         let color = COLORS[at % COLORS.len()];
         let bars = counts.iter().enumerate().map(|(bin, count)| {
             let left = range.start + width * bin as f64 + share * at as f64;
-            let corners = [(left + share * 0.04, 0.0), (left + share * 0.96, *count as f64)];
+            let corners = [
+                (left + share * 0.04, 0.0),
+                (left + share * 0.96, *count as f64),
+            ];
             Rectangle::new(corners, color.mix(0.85).filled())
         });
         let series = chart.draw_series(bars)?;
         if !results.of[at].0.is_empty() {
-            series
-                .label(&results.of[at].0)
-                .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 14, y + 5)], color.filled()));
+            series.label(&results.of[at].0).legend(move |(x, y)| {
+                Rectangle::new([(x, y - 5), (x + 14, y + 5)], color.filled())
+            });
         }
     }
     legend(&mut chart, results)
@@ -251,6 +265,7 @@ fn exceedance(area: &Area<'_>, results: &Results) -> Drawn {
     let range = results.range();
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .x_label_area_size(48)
         .y_label_area_size(64)
         .build_cartesian_2d(range.clone(), 0.0..1.0)?;
@@ -264,7 +279,10 @@ fn exceedance(area: &Area<'_>, results: &Results) -> Drawn {
     for (level, word) in [(0.9, "P90"), (0.5, "P50"), (0.1, "P10")] {
         let line = [(range.start, level), (range.end, level)];
         chart.draw_series(LineSeries::new(line, INK.mix(0.45)))?;
-        let place = (range.start + (range.end - range.start) * 0.005, level + 0.035);
+        let place = (
+            range.start + (range.end - range.start) * 0.005,
+            level + 0.035,
+        );
         let word = Text::new(word, place, (FONT, 13).into_font().color(&INK));
         chart.draw_series(std::iter::once(word))?;
     }
@@ -295,6 +313,7 @@ fn tornado(area: &Area<'_>, scenario: &OfScenario) -> Drawn {
     let names = u32::try_from(longest.unwrap_or(0)).unwrap_or(0) * 7 + 20;
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .margin_left(names.min(SIZE.0 / 2))
         .x_label_area_size(48)
         .build_cartesian_2d(-1.0..1.0, 0.0..rows)?;
@@ -309,7 +328,10 @@ fn tornado(area: &Area<'_>, scenario: &OfScenario) -> Drawn {
     let height = |at: usize| rows - 1.0 - at as f64;
     let bars = shown.iter().enumerate().map(|(at, one)| {
         let color = COLORS[usize::from(one.rank_correlation < 0.0)];
-        let corners = [(0.0, height(at) + 0.12), (one.rank_correlation, height(at) + 0.88)];
+        let corners = [
+            (0.0, height(at) + 0.12),
+            (one.rank_correlation, height(at) + 0.88),
+        ];
         Rectangle::new(corners, color.mix(0.85).filled())
     });
     chart.draw_series(bars)?;
@@ -332,10 +354,15 @@ fn tornado(area: &Area<'_>, scenario: &OfScenario) -> Drawn {
 /// From P90 to P10 a bar, with a mark at P50, for each scenario.
 fn side_by_side(area: &Area<'_>, summary: &Summary, results: &Results) -> Drawn {
     let rows = summary.scenarios.len() as f64;
-    let longest = results.of.iter().map(|(name, _)| name.chars().count()).max();
+    let longest = results
+        .of
+        .iter()
+        .map(|(name, _)| name.chars().count())
+        .max();
     let names = u32::try_from(longest.unwrap_or(0)).unwrap_or(0) * 7 + 20;
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .margin_left(names.min(SIZE.0 / 2))
         .x_label_area_size(48)
         .build_cartesian_2d(results.range(), 0.0..rows)?;
@@ -365,7 +392,10 @@ fn side_by_side(area: &Area<'_>, summary: &Summary, results: &Results) -> Drawn 
         let [low, middle, high] =
             [spread.low_p90, spread.mid_p50, spread.high_p10].map(|value| value / results.unit);
         let color = COLORS[at % COLORS.len()];
-        let bar = Rectangle::new([(low, foot + 0.25), (high, foot + 0.75)], color.mix(0.7).filled());
+        let bar = Rectangle::new(
+            [(low, foot + 0.25), (high, foot + 0.75)],
+            color.mix(0.7).filled(),
+        );
         chart.draw_series(std::iter::once(bar))?;
         let mark = [(middle, foot + 0.15), (middle, foot + 0.85)];
         chart.draw_series(LineSeries::new(mark, INK.stroke_width(2)))?;
