@@ -28,8 +28,13 @@ pub(crate) fn expand(tree: &mut Tree, root: NodeId) -> Vec<Defect> {
         let Some(named) = tree.entry(feature, LIKE).map(|entry| entry.node) else {
             continue;
         };
-        // What is no text is told of where the table is read.
         let Some(name) = tree.text(named) else {
+            let found = tree.describe(named);
+            defects.push(Defect::new(
+                tree.span(named),
+                format!("expected the id of a feature, found {found}"),
+                "write it in quotes, for example: like = \"lower\"",
+            ));
             continue;
         };
         match model_of(tree, &features, at, name) {
