@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{Plot, Summary, TORNADO};
+use super::plots::Plot;
+use super::whole::{Summary, TORNADO};
 
 const STYLE: &str = "body{font:15px/1.45 sans-serif;color:#333;max-width:1100px;margin:2em auto;padding:0 1em}\
 h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}\

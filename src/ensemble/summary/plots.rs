@@ -5,7 +5,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::{OfScenario, Summary, TORNADO};
+use super::whole::{OfScenario, Summary, TORNADO};
 use crate::export::picture::{PictureError, rasterised};
 
 /// Width and height of a plot (px).
@@ -217,7 +217,8 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
         .disable_x_mesh()
         .x_desc(&results.axis)
         .y_desc("realisations")
-        .y_label_formatter(&|count| format!("{count:.0}"))
+        .y_label_formatter(&|count| whole(*count))
+        .light_line_style(WHITE)
         .label_style((FONT, 14))
         .draw()?;
     // Scenarios share each bin side by side.
@@ -240,6 +241,15 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
         }
     }
     legend(&mut chart, results)
+}
+
+/// A count as a label; none between two counts.
+fn whole(count: f64) -> String {
+    if (count - count.round()).abs() < 1e-6 {
+        format!("{count:.0}")
+    } else {
+        String::new()
+    }
 }
 
 type Chart<'a, 'b> = ChartContext<

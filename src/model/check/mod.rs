@@ -26,8 +26,8 @@ const DEFAULT_SEED: u64 = 1;
 impl Model {
     /// Reads and checks a model with its overrides; all its defects at once if there are any.
     ///
-    /// Only where the text is no valid TOML or JSON, or a feature is like one that is not there, is that reported alone, since what
-    /// it leaves cannot be judged.
+    /// Only where the text is no valid TOML or JSON are its syntax errors reported alone, since what they leave cannot be
+    /// judged.
     pub fn check(source: &Source) -> Result<Self, Defects> {
         let mut tree = Tree::default();
         let mut defects = Collector::default();
@@ -57,13 +57,8 @@ impl Model {
                 }
             }
         }
-        let unlike = alike::expand(&mut tree, parsed.root);
-        if !unlike.is_empty() {
-            // What such a feature lacks is not to be told of besides.
-            for defect in unlike {
-                defects.add(defect);
-            }
-            return defects.finish(texts, None);
+        for defect in alike::expand(&mut tree, parsed.root) {
+            defects.add(defect);
         }
         let checker = Checker {
             reader: Reader::new(&tree, defects),
