@@ -168,6 +168,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
             "level",
             "parent",
             "along",
+            "like",
             "facies",
             "properties",
         ];

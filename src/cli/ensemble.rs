@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use sha2::{Digest, Sha256};
 
 use super::args::ModelArgs;
 use super::build::{Engine, Format, ProofLevel};
@@ -15,7 +14,7 @@ use super::{interrupt, load, print, scenarios};
 use crate::ensemble::Member;
 use crate::ensemble::design::Design;
 use crate::ensemble::folder::{Folder, FolderError, Manifest, Settled};
-use crate::ensemble::member::{Changes, Scenario};
+use crate::ensemble::member::{Changes, Scenario, digest};
 use crate::ensemble::summary::{self, Summary};
 use crate::ensemble::workers::{self, End, Ended, Job, WorkersError};
 use crate::model::{Model, Source, Stratum};
@@ -39,6 +38,10 @@ A design table has a row for each realisation and keys as --set names them for c
   seed,feature.channel.count,feature.channel.width
   1,10,\"{ uniform = [20, 60] }\"
   2,20,40")]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is an option of the command line"
+)]
 pub(super) struct Args {
     #[command(flatten)]
     model: ModelArgs,
@@ -396,11 +399,6 @@ fn manifest(args: &Args, model: &Model) -> Result<Manifest, Failure> {
         ("max_level", serde_json::json!(args.model.max_level)),
     ];
     Ok(common.map(|(key, value)| (key.to_owned(), value)).into())
-}
-
-fn digest(bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// What `build` is told of all realisations.

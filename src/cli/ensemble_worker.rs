@@ -1,10 +1,9 @@
 //! The hidden command that makes one realisation of an ensemble: a build with limits, which ends with its parent.
 
-use sha2::{Digest, Sha256};
-
 use super::build;
 use super::failure::Failure;
 use crate::assembly::worker;
+use crate::ensemble::member::digest;
 use crate::ensemble::workers;
 
 /// A build for an ensemble.
@@ -33,9 +32,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .map_err(|error| Failure::Surroundings(format!("no thread can be started: {error}")))?;
     let model = &args.build.model.model;
     let bytes = std::fs::read(model).map_err(|error| Failure::file("read", model, &error))?;
-    let found = Sha256::digest(&bytes);
-    let found: String = found.iter().map(|byte| format!("{byte:02x}")).collect();
-    if found != args.sha256 {
+    if digest(&bytes) != args.sha256 {
         // Not an answer about the model: the ensemble can go on once it is as it was.
         return Err(Failure::Surroundings(format!(
             "{} has changed since the ensemble began",

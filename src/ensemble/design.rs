@@ -320,7 +320,7 @@ mod tests {
         let unknown = told("feature.old-chanel.width\n30\n");
         assert!(
             unknown.starts_with("design.csv, row 1 (line 2), column `feature.old-chanel.width`:")
-                && unknown.contains("did you mean `old-channel`?"),
+                && unknown.contains("did you mean \"old-channel\"?"),
             "{unknown}"
         );
         let wrong =

@@ -299,13 +299,15 @@ fn end_of(status: ExitStatus, words: String, memory_limit: Option<u64>) -> End {
     if status.success() {
         return End::Settled(Settled::Made);
     }
-    let wants_memory = [
+    // A thread takes address space, too.
+    let signs = [
         "memory allocation of",
         "bad_alloc",
         "Cannot allocate memory",
-    ]
-    .iter()
-    .any(|sign| words.contains(sign));
+        "starts no threads",
+        "no thread can be started",
+    ];
+    let wants_memory = signs.iter().any(|sign| words.contains(sign));
     match (code, memory_limit) {
         (_, Some(limit)) if wants_memory => End::OutOfMemory(limit),
         (Some(code), _) if ANSWERS.contains(&code) => {

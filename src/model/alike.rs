@@ -109,20 +109,10 @@ fn model_of(
 
 /// The entries that a feature takes from another one.
 fn take(tree: &Tree, feature: NodeId, other: NodeId) -> Result<Vec<Entry>, Box<Defect>> {
-    if let (Some(own), Some(others)) = (tree.entry(feature, "kind"), tree.entry(other, "kind"))
-        && let (Some(kind), Some(wanted)) = (tree.text(own.node), tree.text(others.node))
-        && kind != wanted
-    {
-        let message = format!(
-            "its kind is {}, and that of what it is like is {}",
-            quoted(kind),
-            quoted(wanted)
-        );
+    if let Some(own) = tree.entry(feature, "kind") {
+        let message = "it is like another feature, whose kind it has, and has a `kind` of its own";
         let remedy = "leave `kind` out, or leave `like` out and write all keys";
-        return Err(Box::new(
-            Defect::new(tree.span(own.node), message, remedy)
-                .with_related(tree.span(others.node), "the other one's kind"),
-        ));
+        return Err(Box::new(Defect::new(tree.span(own.node), message, remedy)));
     }
     let has = |key: &str| tree.entry(feature, key).is_some();
     let excluded = |key: &str| {

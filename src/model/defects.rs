@@ -336,8 +336,8 @@ pub(crate) struct Collector {
 
 impl Collector {
     pub(crate) fn add(&mut self, defect: Defect) {
-        // Features that are like each other share values, and what is wrong with these.
-        let same = |other: &Defect| other.span == defect.span && other.message == defect.message;
+        // Features that are like each other share values: what is wrong with these is told of the first.
+        let same = |other: &Defect| other.span == defect.span && other.remedy == defect.remedy;
         if self.listed.iter().any(same) {
             return;
         }

@@ -68,10 +68,10 @@ fn shuffled(number: u64, half: u32, key: &Sha256) -> u64 {
         let hash = hash.finalize();
         let mixed = hash[..8]
             .iter()
-            .fold(0, |all, byte| all << 8 | u64::from(*byte));
+            .fold(0, |all, byte| (all << 8) | u64::from(*byte));
         (left, right) = (right, (left ^ mixed) & mask);
     }
-    left << half | right
+    (left << half) | right
 }
 
 impl fmt::Display for Stratum {
@@ -94,7 +94,12 @@ impl FromStr for Stratum {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#[allow(
+    clippy::unwrap_used,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a test fails by panicking; its numbers are small"
+)]
 mod tests {
     use super::*;
     use crate::model::Stream;

@@ -72,7 +72,7 @@ fn a_wrong_row_of_a_design_is_told_by_row_and_column_and_nothing_is_made() {
         ),
         (
             "feature.old-chanel.width\n30\n",
-            "row 1 (line 2), column `feature.old-chanel.width`: the model has no feature `old-chanel`; did you mean `old-channel`?",
+            "row 1 (line 2), column `feature.old-chanel.width`: the model has no feature `old-chanel`; did you mean \"old-channel\"?",
         ),
         (
             "feature.old-channel.width\n30\n\"\"\n",

@@ -3,7 +3,8 @@
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
-    reason = "a test fails by panicking"
+    clippy::cast_possible_truncation,
+    reason = "a test fails by panicking; its numbers are small"
 )]
 
 mod arguments;

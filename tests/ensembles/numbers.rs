@@ -118,7 +118,8 @@ fn a_design_sets_what_its_table_says_and_nothing_else_is_drawn() {
     assert!(rows.iter().all(|row| row["seed"] == "1"));
     // The older channel is straight and at its full depth: its section is in proportion to its width.
     let young = |row: usize| number(&rows[row]["feature.young-channel.volume_m3"]);
-    assert_eq!(young(0), young(1));
+    // What the older one is does not matter to it, but for where faces are cut for the integral.
+    assert!((young(0) - young(1)).abs() < 1e-6);
     assert!(young(2) > young(1));
     let old = |row: usize| number(&rows[row]["feature.old-channel.volume_m3"]);
     assert!(old(0) < old(1) && old(1) < old(2));
@@ -179,7 +180,7 @@ fn scenarios_differ_by_what_they_change_and_by_no_draw() {
         }
         // The younger channel takes from the older one, so it has the same volume without that.
         let young = |scenario| number(&of(scenario)["feature.young-channel.volume_m3"]);
-        assert!((young(1) - young(0)).abs() < 1e-6);
+        assert!((young(1) - young(0)).abs() < 1e-8 * young(0));
         assert!(young(2) > 1.5 * young(0));
         assert_eq!(of(1)["feature.old-channel.volume_m3"], "");
     }

@@ -178,7 +178,8 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or_default()
 }
 
-/// What was drawn: for the domain, then for each volume. Draws of one instance that several volumes tell of are told once.
+/// What was drawn: for the domain, then for each volume. Of a parameter that a feature has several times (of each channel, of each
+/// clinoform) there is the mean besides: that of one channel of many decides little.
 fn drawn(report: &Value) -> Numbers {
     let mut numbers = Numbers::new();
     let of = |name: &str, drawn: &Value, numbers: &mut Numbers| {
@@ -189,10 +190,37 @@ fn drawn(report: &Value) -> Numbers {
         }
     };
     of("domain", &report["domain"]["drawn"], &mut numbers);
+    let mut of_features: Vec<(String, f64, u32)> = Vec::new();
     for volume in array(report, "volumes") {
-        of(text(volume, "name"), &volume["drawn"], &mut numbers);
+        let drawn = &volume["drawn"];
+        of(text(volume, "name"), drawn, &mut numbers);
+        for (parameter, value) in drawn.as_object().into_iter().flatten() {
+            let Some(value) = value.as_f64() else {
+                continue;
+            };
+            let name = format!("{}.{}.mean", text(volume, "feature"), unnumbered(parameter));
+            match of_features.iter_mut().find(|(known, ..)| *known == name) {
+                Some((_, sum, count)) => {
+                    *sum += value;
+                    *count += 1;
+                }
+                None => of_features.push((name, value, 1)),
+            }
+        }
     }
+    let several = of_features.into_iter().filter(|(.., count)| *count > 1);
+    numbers.extend(several.map(|(name, sum, count)| (name, sum / f64::from(count))));
     numbers
+}
+
+/// A parameter without the number of what it belongs to: `usf.width` of `usf-3.width`.
+fn unnumbered(parameter: &str) -> String {
+    let plain = |word: &str| match word.rsplit_once('-') {
+        Some((name, number)) if number.parse::<u32>().is_ok() => name.to_owned(),
+        _ => word.to_owned(),
+    };
+    let words: Vec<String> = parameter.split('.').map(plain).collect();
+    words.join(".")
 }
 
 /// What came of it: over the domain, by facies, by feature.
@@ -356,6 +384,7 @@ mod tests {
                 ("domain.top.level", Role::Drawn, Some(-2.0)),
                 ("ditch-1.width", Role::Drawn, Some(5.0)),
                 ("ditch-2.width", Role::Drawn, Some(6.0)),
+                ("ditch.width.mean", Role::Drawn, Some(5.5)),
                 measure("connectivity.bodies.a.area", 4.0),
                 measure("connectivity.gamma", 0.68),
                 measure("net_to_gross", 0.3),
@@ -375,6 +404,19 @@ mod tests {
                 measure("solids", 4.0),
             ]
         );
+    }
+
+    #[test]
+    fn parameters_lose_the_number_of_what_they_belong_to_and_no_other() {
+        for (parameter, name) in [
+            ("width", "width"),
+            ("usf-3.width", "usf.width"),
+            ("spacing-12", "spacing"),
+            ("by-hand", "by-hand"),
+            ("properties.permeability.0", "properties.permeability.0"),
+        ] {
+            assert_eq!(unnumbered(parameter), name);
+        }
     }
 
     #[test]

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{Plot, Summary, TORNADO};
+use super::plots::Plot;
+use super::whole::{Summary, TORNADO};
 
 const STYLE: &str = "body{font:15px/1.45 sans-serif;color:#333;max-width:1100px;margin:2em auto;padding:0 1em}\
 h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}\
@@ -119,9 +120,9 @@ pub fn page(summary: &Summary, plots: &[Plot]) -> String {
     );
     heading(&mut out, summary);
     for plot in plots {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<figure aria-label=\"{}\">{}</figure>\n",
+            "<figure aria-label=\"{}\">{}</figure>",
             escaped(&plot.caption),
             plot.svg
         );
@@ -130,7 +131,7 @@ pub fn page(summary: &Summary, plots: &[Plot]) -> String {
     strongest(&mut out, summary);
     unmade(&mut out, summary);
     realisations(&mut out, summary);
-    let _ = write!(out, "<script>{SCRIPT}</script></body></html>\n");
+    let _ = writeln!(out, "<script>{SCRIPT}</script></body></html>");
     out
 }
 
@@ -164,7 +165,7 @@ fn heading(out: &mut String, summary: &Summary) {
         "<p>P90 is what 90 % of the realisations exceed. The P50s of two quantities belong to no one realisation.</p>\n",
     );
     for warning in summary.warnings() {
-        let _ = write!(out, "<p class=\"warning\">{}</p>\n", escaped(&warning));
+        let _ = writeln!(out, "<p class=\"warning\">{}</p>", escaped(&warning));
     }
 }
 

@@ -5,7 +5,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::{OfScenario, Summary, TORNADO};
+use super::whole::{OfScenario, Summary, TORNADO};
 use crate::export::picture::{PictureError, rasterised};
 
 /// Width and height of a plot (px).
@@ -208,6 +208,7 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
     let highest = counted.iter().flatten().copied().max().unwrap_or(1).max(1);
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .x_label_area_size(48)
         .y_label_area_size(64)
         .build_cartesian_2d(range.clone(), 0.0..highest as f64 * 1.08)?;
@@ -216,7 +217,8 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
         .disable_x_mesh()
         .x_desc(&results.axis)
         .y_desc("realisations")
-        .y_label_formatter(&|count| format!("{count:.0}"))
+        .y_label_formatter(&|count| whole(*count))
+        .light_line_style(WHITE)
         .label_style((FONT, 14))
         .draw()?;
     // Scenarios share each bin side by side.
@@ -239,6 +241,15 @@ fn histogram(area: &Area<'_>, results: &Results) -> Drawn {
         }
     }
     legend(&mut chart, results)
+}
+
+/// A count as a label; none between two counts.
+fn whole(count: f64) -> String {
+    if (count - count.round()).abs() < 1e-6 {
+        format!("{count:.0}")
+    } else {
+        String::new()
+    }
 }
 
 type Chart<'a, 'b> = ChartContext<
@@ -264,6 +275,7 @@ fn exceedance(area: &Area<'_>, results: &Results) -> Drawn {
     let range = results.range();
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .x_label_area_size(48)
         .y_label_area_size(64)
         .build_cartesian_2d(range.clone(), 0.0..1.0)?;
@@ -311,6 +323,7 @@ fn tornado(area: &Area<'_>, scenario: &OfScenario) -> Drawn {
     let names = u32::try_from(longest.unwrap_or(0)).unwrap_or(0) * 7 + 20;
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .margin_left(names.min(SIZE.0 / 2))
         .x_label_area_size(48)
         .build_cartesian_2d(-1.0..1.0, 0.0..rows)?;
@@ -359,6 +372,7 @@ fn side_by_side(area: &Area<'_>, summary: &Summary, results: &Results) -> Drawn 
     let names = u32::try_from(longest.unwrap_or(0)).unwrap_or(0) * 7 + 20;
     let mut chart = ChartBuilder::on(area)
         .margin(14)
+        .margin_right(28)
         .margin_left(names.min(SIZE.0 / 2))
         .x_label_area_size(48)
         .build_cartesian_2d(results.range(), 0.0..rows)?;

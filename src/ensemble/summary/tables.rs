@@ -1,6 +1,7 @@
 //! The tables of a summary, with commas between their values.
 
-use super::Summary;
+use super::columns::Role;
+use super::whole::Summary;
 use crate::ensemble::statistics::Spread;
 use crate::export::ExportError;
 
@@ -38,10 +39,10 @@ pub fn realisations(summary: &Summary) -> Result<String, ExportError> {
     }
     header.extend(keys.iter().map(|key| format!("design.{key}")));
     let numbers: Vec<usize> = (0..table.columns.len())
-        .filter(|at| table.columns[*at].role != super::Role::Design)
+        .filter(|at| table.columns[*at].role != Role::Design)
         .collect();
     header.extend(numbers.iter().map(|at| match &table.columns[*at] {
-        column if column.role == super::Role::Drawn => format!("drawn.{}", column.name),
+        column if column.role == Role::Drawn => format!("drawn.{}", column.name),
         column => column.name.clone(),
     }));
     let rows = table.rows.iter().map(|row| {

@@ -251,15 +251,26 @@ impl Kind for PointBarsSpec {
         }
         let drawn = draws.taken();
         let mut parts = Vec::new();
+        let mut decisions = Vec::new();
         for (at, bend) in bends.iter().enumerate() {
-            let bar = design.build(reach, bend).map_err(|error| {
-                let reason = match &error {
-                    PointBarError::Crossing { .. } => "accretion surfaces cross",
-                    PointBarError::Extrusion(_) => "surface out of tolerance",
-                    _ => "impossible point bar",
-                };
-                (reason, format!("bar {}: {error}", at + 1))
-            })?;
+            let bar = match (design.build(reach, bend), site.host) {
+                (Ok(bar), _) => bar,
+                // So is whether a bend is wide enough for the sections of a bar, which reach out of the channel.
+                (Err(error @ PointBarError::Extrusion(_)), Some((name, channel)))
+                    if channel.is_drawn() =>
+                {
+                    decisions.push(format!("has no bar {} in {name}: {error}", at + 1));
+                    continue;
+                }
+                (Err(error), _) => {
+                    let reason = match &error {
+                        PointBarError::Crossing { .. } => "accretion surfaces cross",
+                        PointBarError::Extrusion(_) => "surface out of tolerance",
+                        _ => "impossible point bar",
+                    };
+                    return Err((reason, format!("bar {}: {error}", at + 1)));
+                }
+            };
             // Bars keep their numbers whatever the domain shows of them.
             if bar
                 .packages
@@ -269,7 +280,10 @@ impl Kind for PointBarsSpec {
                 self.add(at + 1, bar, &drawn, &mut parts);
             }
         }
-        Ok(Made::of(parts))
+        Ok(Made {
+            decisions,
+            ..Made::of(parts)
+        })
     }
 
     fn more_facies(&self) -> Vec<usize> {
