@@ -8,8 +8,9 @@ use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::args::ModelArgs;
-use super::build::{Engine, Format, ProofLevel};
+use super::engine::{Engine, ProofLevel};
 use super::failure::Failure;
+use super::outputs::Format;
 use super::{interrupt, load, print, scenarios};
 use crate::ensemble::Member;
 use crate::ensemble::design::Design;

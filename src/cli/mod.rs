@@ -9,6 +9,8 @@ mod args;
 mod build;
 mod check;
 #[cfg(feature = "occt")]
+mod engine;
+#[cfg(feature = "occt")]
 mod ensemble;
 #[cfg(feature = "occt")]
 mod ensemble_worker;
@@ -21,6 +23,8 @@ mod load;
 mod locate;
 mod log;
 mod new;
+#[cfg(feature = "occt")]
+mod outputs;
 mod picture;
 mod print;
 mod progress;

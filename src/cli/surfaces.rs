@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::args::ModelArgs;
-use super::build::{self, EngineArgs, Schema};
+use super::engine::{self, EngineArgs};
 use super::failure::Failure;
 use super::files;
 use super::load::{self, Loaded};
+use super::outputs::Schema;
 use super::progress::Progress;
 use super::triangles::{self, Content, Names, TriangleArgs, above_zero};
 use super::{interrupt, print};
@@ -245,7 +246,7 @@ impl Made {
             }
         } else {
             let progress = Progress::new(args.engine.quiet);
-            let built = build::assemble(loaded, &args.engine, cancel, &progress)?;
+            let built = engine::assemble(loaded, &args.engine, cancel, &progress)?;
             progress.stage("writing");
             let (realisation, plan) = (built.subject.realisation, built.subject.plan);
             let fineness = args.triangles.fineness(&plan)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use glam::DVec3;
 
 use super::args::{ModelArgs, finite, numbers};
-use super::build::{self, EngineArgs};
+use super::engine::{self, EngineArgs};
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
@@ -190,7 +190,7 @@ fn corner(at: [f64; 2], camera: &Camera, low: DVec3, high: DVec3) -> Cut {
 fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure> {
     let cancel = interrupt::cancel()?;
     let progress = Progress::new(args.engine.quiet);
-    let built = build::assemble(loaded, &args.engine, &cancel, &progress)?;
+    let built = engine::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
     let fineness = Fineness {
         chord: CHORD * built.subject.plan.low().distance(built.subject.plan.high()),
