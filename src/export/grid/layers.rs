@@ -81,7 +81,7 @@ pub struct Layers {
     /// From the base up.
     intervals: Vec<Interval>,
     /// For each layer from the base up: its interval, and its number in that.
-    layers: Vec<(usize, usize)>,
+    in_interval: Vec<(usize, usize)>,
     /// What is thinner has no thickness (m).
     least: f64,
 }
@@ -147,14 +147,14 @@ impl Layers {
             });
         }
         let each = intervals.iter().enumerate();
-        let layers = each
+        let in_interval = each
             .flat_map(|(at, interval)| (0..interval.layers).map(move |number| (at, number)))
             .collect();
         Ok(Self {
             plan,
             surfaces,
             intervals,
-            layers,
+            in_interval,
             least,
         })
     }
@@ -166,7 +166,7 @@ impl Layers {
 
     /// How many layers there are.
     pub fn count(&self) -> usize {
-        self.layers.len()
+        self.in_interval.len()
     }
 
     /// What they divide, from the base up.
@@ -176,7 +176,7 @@ impl Layers {
 
     /// The elevation at a pillar of a layer's base (`false`) or top (m).
     pub(super) fn elevation(&self, [i, j]: [usize; 2], layer: usize, part: f64) -> f64 {
-        let (at, number) = self.layers[layer];
+        let (at, number) = self.in_interval[layer];
         let interval = &self.intervals[at];
         let pillar = j * (self.plan.counts[0] + 1) + i;
         let below = self.surfaces[interval.below][pillar];
