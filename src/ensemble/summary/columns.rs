@@ -244,8 +244,8 @@ fn measures(report: &Value) -> Numbers {
     }
     by_feature(report, &mut numbers);
     let counts = array(report, "rejected_draws").iter();
-    let rejected = counts.filter_map(|one| one["count"].as_f64()).sum();
-    numbers.push(("rejected_draws".to_owned(), rejected));
+    let rejected: u64 = counts.filter_map(|one| one["count"].as_u64()).sum();
+    numbers.push(("rejected_draws".to_owned(), rejected as f64));
     for key in ["solids", "faces"] {
         let value = report["assembly"][key].as_f64();
         numbers.extend(value.map(|value| (key.to_owned(), value)));
