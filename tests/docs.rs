@@ -165,6 +165,7 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
             "level",
             "parent",
             "along",
+            "like",
             "facies",
             "properties",
         ];

@@ -336,6 +336,11 @@ pub(crate) struct Collector {
 
 impl Collector {
     pub(crate) fn add(&mut self, defect: Defect) {
+        // Features that are like each other share values: what is wrong with these is told of the first.
+        let same = |other: &Defect| other.span == defect.span && other.remedy == defect.remedy;
+        if self.listed.iter().any(same) {
+            return;
+        }
         if self.is_full() {
             self.unlisted += 1;
         } else {

@@ -6,6 +6,7 @@
 //! A [`Source`] is a text and the overrides given with it; [`Model::check`] turns it into a [`Model`] whose references are
 //! indices and whose numbers are possible, or into [`Defects`]. [`Quantity`] and [`Profile`] are drawn from a [`Stream`].
 
+mod alike;
 mod cells;
 mod check;
 mod checker;
@@ -40,6 +41,7 @@ mod schema;
 pub mod selection;
 mod source;
 mod spec;
+mod stratum;
 mod stream;
 mod suggest;
 mod tables;
@@ -82,6 +84,7 @@ pub use references::{Host, Reference};
 pub use schema::schema;
 pub use source::{Format, LARGEST_FILE, ReadError, Source};
 pub use spec::{Feature, Model};
+pub use stratum::Stratum;
 pub use stream::Stream;
 pub use template::{TEMPLATES, Template};
 pub use values::bank::Side;

@@ -1,5 +1,6 @@
 //! Overrides given as arguments (`feature.channel.width=30`), put into the tree before it is checked.
 
+use super::alike;
 use super::defects::{Defect, Span};
 use super::suggest;
 use super::toml_text;
@@ -23,6 +24,7 @@ pub(crate) fn apply(
     let path = path_of(tree, text, &source[..equals])?;
     let value = value_of(tree, text, source, equals, path.len())?;
     let mut table = root;
+    let mut features = None;
     for (depth, step) in path.iter().enumerate() {
         let last = depth + 1 == path.len();
         match tree.value(table) {
@@ -31,7 +33,12 @@ pub(crate) fn apply(
                 table = match (existing, last) {
                     (Some(node), false) => node,
                     (None, false) => {
-                        let node = tree.add(step.key_span, Value::Table(Vec::new()));
+                        // A feature that is like another one gets a table of its own, so that the other keeps its own.
+                        let taken = features.filter(|_| depth == 2);
+                        let taken =
+                            taken.and_then(|list| alike::inherited(tree, list, table, &step.key));
+                        let node = taken
+                            .unwrap_or_else(|| tree.add(step.key_span, Value::Table(Vec::new())));
                         put(tree, table, step, node);
                         node
                     }
@@ -42,6 +49,7 @@ pub(crate) fn apply(
                 };
             }
             Value::List(_) if depth == 1 && path[0].key == "feature" => {
+                features = Some(table);
                 table = feature(tree, table, step)?;
                 if last {
                     return Err(vec![Defect::new(

@@ -234,6 +234,11 @@ impl<'t> Reader<'t> {
 
     /// Reports that a key is missing, unless it is there but misspelt (which closing the table reports).
     pub(crate) fn missing(&self, table: NodeId, name: &str, key: &str, example: &str) {
+        // What a feature has not by being like another one is told of that one, or of what names it.
+        let has = |key: &str| self.tree.entry(table, key).is_some();
+        if key != "id" && has("id") && has("like") {
+            return;
+        }
         let known = self.known(table);
         let unknown = self.tree.entries(table).iter();
         let mut unknown = unknown

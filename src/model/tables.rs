@@ -150,6 +150,33 @@ pub(crate) fn or_form(by_kind: Schema, key: &str, form: &Schema) -> Schema {
     table.into()
 }
 
+/// Tables as above, or such as have no kind and what else they need from another one, which `like` names.
+pub(crate) fn or_like(by_kind: Schema) -> Schema {
+    let allowed: Map<String, Value> = keys(&by_kind)
+        .into_iter()
+        .map(|(key, _)| (key, Value::Bool(true)))
+        .collect();
+    let mut table = object(by_kind.to_value());
+    let like = json!({
+        "if": { "required": ["like"] },
+        "then": { "properties": allowed, "required": ["id"], "additionalProperties": false },
+        "else": { "required": ["kind"] },
+    });
+    table.remove("required");
+    last_else(&mut table, like);
+    table.into()
+}
+
+/// Puts a schema where all alternatives of a table end.
+fn last_else(table: &mut Map<String, Value>, last: Value) {
+    match table.get_mut("else") {
+        Some(Value::Object(next)) if next.contains_key("if") => last_else(next, last),
+        _ => {
+            table.insert("else".to_owned(), last);
+        }
+    }
+}
+
 /// A key's schema if all kinds that have it mean the same, or no more than what each says of it; and whether they do.
 fn shared(key: &str, kinds: &[(&str, Schema)]) -> (Value, bool) {
     let having: Vec<(&str, Map<String, Value>, String)> = kinds

@@ -52,6 +52,37 @@ impl Tree {
         NodeId(self.nodes.len() - 1)
     }
 
+    /// Adds entries to a table.
+    pub(crate) fn extend(&mut self, table: NodeId, more: Vec<Entry>) {
+        if let Value::Table(entries) = self.value_mut(table) {
+            entries.extend(more);
+        }
+    }
+
+    /// A copy of a node with all that it holds, each at the place where the first stands.
+    pub(crate) fn copy(&mut self, id: NodeId) -> NodeId {
+        let value = match self.value(id) {
+            Value::Null => Value::Null,
+            Value::Bool(value) => Value::Bool(*value),
+            Value::Integer(value) => Value::Integer(*value),
+            Value::Float(value) => Value::Float(*value),
+            Value::Text(text) => Value::Text(text.clone()),
+            Value::Date(text) => Value::Date(text.clone()),
+            Value::List(elements) => {
+                let elements = elements.clone();
+                Value::List(elements.into_iter().map(|node| self.copy(node)).collect())
+            }
+            Value::Table(entries) => {
+                let mut entries = entries.clone();
+                for entry in &mut entries {
+                    entry.node = self.copy(entry.node);
+                }
+                Value::Table(entries)
+            }
+        };
+        self.add(self.span(id), value)
+    }
+
     pub(crate) fn value(&self, id: NodeId) -> &Value {
         &self.nodes[id.0].value
     }
@@ -99,19 +130,19 @@ impl Tree {
         }
     }
 
-    /// For every node, the one that holds it.
+    /// For every node, the one that holds it; of several, which features that are like each other may be, the first.
     pub(crate) fn holders(&self) -> Vec<Option<NodeId>> {
         let mut holders = vec![None; self.nodes.len()];
         for (i, node) in self.nodes.iter().enumerate() {
             match &node.value {
                 Value::List(elements) => {
                     for element in elements {
-                        holders[element.0] = Some(NodeId(i));
+                        holders[element.0].get_or_insert(NodeId(i));
                     }
                 }
                 Value::Table(entries) => {
                     for entry in entries {
-                        holders[entry.node.0] = Some(NodeId(i));
+                        holders[entry.node.0].get_or_insert(NodeId(i));
                     }
                 }
                 _ => {}

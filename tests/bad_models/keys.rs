@@ -9,10 +9,11 @@ use clinothem::model::{Defect, Defects, Format, Model, Source, schema};
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
+use super::likes::LIKE;
 use super::{BODY, NODULE, SHOREFACE, TOML};
 
 /// Models that together have every key.
-const GOOD: [(&str, &str); 18] = [
+const GOOD: [(&str, &str); 19] = [
     ("good.toml", TOML),
     ("body.toml", BODY),
     ("nodule.toml", NODULE),
@@ -24,6 +25,7 @@ const GOOD: [(&str, &str); 18] = [
     ("kinds.toml", include_str!("kinds.toml")),
     ("lag.toml", include_str!("lag.toml")),
     ("levee.toml", include_str!("levee.toml")),
+    ("like.toml", LIKE),
     ("nets.toml", include_str!("nets.toml")),
     ("plug.toml", include_str!("plug.toml")),
     ("reference.toml", include_str!("reference.toml")),
@@ -49,7 +51,7 @@ const ODD: [&str; 7] = [
     "1e300",
 ];
 /// Keys of all features, or of most, each read in one place.
-const COMMON: [&str; 14] = [
+const COMMON: [&str; 15] = [
     "along",
     "conform",
     "count",
@@ -58,6 +60,7 @@ const COMMON: [&str; 14] = [
     "id",
     "kind",
     "level",
+    "like",
     "name",
     "parent",
     "preserve",
@@ -324,7 +327,8 @@ fn every_key_of_every_kind_is_refused_by_its_name() {
         let of_kind: Vec<(Table, usize)> = models()
             .flat_map(|(_, model)| {
                 let features = model["feature"].as_array().unwrap();
-                let is_it = |at: &usize| features[*at]["kind"].as_str() == Some(&kind);
+                let is_it =
+                    |at: &usize| features[*at].get("kind").and_then(Value::as_str) == Some(&kind);
                 let places: Vec<usize> = (0..features.len()).filter(is_it).collect();
                 places.into_iter().map(move |at| (model.clone(), at))
             })
@@ -388,7 +392,10 @@ fn every_key_of_the_schema_is_in_a_good_model_and_so_in_broken_ones() {
         places(&Value::Table(model.clone()), &mut Vec::new(), &mut found);
         tried.extend(found.iter().map(|path| key_of(path).to_owned()));
         for feature in model["feature"].as_array().unwrap() {
-            let kind = feature["kind"].as_str().unwrap();
+            // What is like another feature has that one's kind.
+            let Some(kind) = feature.get("kind").and_then(Value::as_str) else {
+                continue;
+            };
             let keys = feature.as_table().unwrap().keys();
             by_kind.extend(keys.map(|key| (kind.to_owned(), key.clone())));
         }

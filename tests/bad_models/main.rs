@@ -18,6 +18,7 @@ mod ellipsoids;
 mod files;
 mod keys;
 mod lags;
+mod likes;
 mod meander_belts;
 mod nets;
 mod overrides;

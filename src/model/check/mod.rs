@@ -18,7 +18,7 @@ use super::read::{Any, Field, Reader};
 use super::source::{Format, Source};
 use super::spec::Model;
 use super::tree::{NodeId, Tree, Value};
-use super::{json_text, overrides, toml_text};
+use super::{alike, json_text, overrides, toml_text};
 
 /// What a model without a seed is drawn with.
 const DEFAULT_SEED: u64 = 1;
@@ -56,6 +56,9 @@ impl Model {
                     defects.add(defect);
                 }
             }
+        }
+        for defect in alike::expand(&mut tree, parsed.root) {
+            defects.add(defect);
         }
         let checker = Checker {
             reader: Reader::new(&tree, defects),
@@ -109,6 +112,7 @@ impl Checker<'_> {
             name: name?,
             description,
             seed: seed?,
+            stratum: None,
             origin: origin?,
             domain: domain?,
             facies: facies.finished()?,

@@ -34,7 +34,7 @@ use super::draft::FeatureFile;
 use super::draws::{Draws, Reason};
 use super::nature::{Gives, Nature};
 use super::references::Reference;
-use super::tables::by_kind_but;
+use super::tables::{by_kind_but, or_like};
 use body::BodySpec;
 use channel::ChannelSpec;
 use clinoform::ClinoformSpec;
@@ -232,5 +232,5 @@ pub(crate) fn schema(generator: &mut SchemaGenerator) -> Schema {
         .map(|kind| (kind.nature.name, (kind.schema)(generator)))
         .collect();
     let lacking = |kind: &str| named(kind).map_or(Vec::new(), |kind| kind.nature.lacking());
-    json_schema!({ "type": "array", "items": by_kind_but(&common, &kinds, &lacking) })
+    json_schema!({ "type": "array", "items": or_like(by_kind_but(&common, &kinds, &lacking)) })
 }
