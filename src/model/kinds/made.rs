@@ -194,6 +194,11 @@ pub(crate) enum TakesFrom {
 }
 
 impl Made {
+    /// Whether anything was drawn for it.
+    pub(crate) fn is_drawn(&self) -> bool {
+        self.parts.iter().any(|part| !part.drawn.is_empty())
+    }
+
     /// An instance that is one body, and takes what the feature's rules admit.
     pub(crate) fn body(body: Body, drawn: Vec<(String, f64)>) -> Self {
         Self::of(vec![Part {

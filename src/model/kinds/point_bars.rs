@@ -238,22 +238,39 @@ impl Kind for PointBarsSpec {
         let least = self.least_turn_deg;
         let bends = bends(reach.trajectory(), width, least.to_radians());
         if bends.is_empty() {
-            let message = format!(
-                "its channel has no bend that turns by {least}° or more and is longer than two widths"
-            );
-            return Err(("no bends", message));
+            let none =
+                format!("no bend that turns by {least}° or more and is longer than two widths");
+            return match site.host {
+                // Whether a channel that is drawn has bends is chance, and none is as good as some.
+                Some((name, channel)) if channel.is_drawn() => Ok(Made {
+                    decisions: vec![format!("has no bars in {name}, which has {none}")],
+                    ..Made::of(Vec::new())
+                }),
+                _ => Err(("no bends", format!("its channel has {none}"))),
+            };
         }
         let drawn = draws.taken();
         let mut parts = Vec::new();
+        let mut decisions = Vec::new();
         for (at, bend) in bends.iter().enumerate() {
-            let bar = design.build(reach, bend).map_err(|error| {
-                let reason = match &error {
-                    PointBarError::Crossing { .. } => "accretion surfaces cross",
-                    PointBarError::Extrusion(_) => "surface out of tolerance",
-                    _ => "impossible point bar",
-                };
-                (reason, format!("bar {}: {error}", at + 1))
-            })?;
+            let bar = match (design.build(reach, bend), site.host) {
+                (Ok(bar), _) => bar,
+                // So is whether a bend is wide enough for the sections of a bar, which reach out of the channel.
+                (Err(error @ PointBarError::Extrusion(_)), Some((name, channel)))
+                    if channel.is_drawn() =>
+                {
+                    decisions.push(format!("has no bar {} in {name}: {error}", at + 1));
+                    continue;
+                }
+                (Err(error), _) => {
+                    let reason = match &error {
+                        PointBarError::Crossing { .. } => "accretion surfaces cross",
+                        PointBarError::Extrusion(_) => "surface out of tolerance",
+                        _ => "impossible point bar",
+                    };
+                    return Err((reason, format!("bar {}: {error}", at + 1)));
+                }
+            };
             // Bars keep their numbers whatever the domain shows of them.
             if bar
                 .packages
@@ -263,7 +280,10 @@ impl Kind for PointBarsSpec {
                 self.add(at + 1, bar, &drawn, &mut parts);
             }
         }
-        Ok(Made::of(parts))
+        Ok(Made {
+            decisions,
+            ..Made::of(parts)
+        })
     }
 
     fn more_facies(&self) -> Vec<usize> {
