@@ -49,6 +49,7 @@ pub const TEMPLATES: &[Template] = templates! {
     "isochores": "beds given by their thickness above an older horizon, two of which end",
     "parasequence": "two shoreface parasequences: clinoforms, and facies belts between them",
     "coastal": "both of these parasequences above the channels of a coastal plain",
+    "case-study": "channels with lags and point bars below two parasequences of one definition, for ensembles",
 
     "wandering": "trajectories and sections of every kind",
     "fig06a-channel": "a channel through points, its width and depth changing on the way",

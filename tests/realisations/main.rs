@@ -13,6 +13,7 @@ mod meshing;
 mod owners;
 mod references;
 mod rejections;
+mod table_1;
 
 use std::collections::BTreeMap;
 
