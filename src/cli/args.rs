@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::model::Stratum;
 use crate::model::selection::Selection;
 
 /// The model and what is changed in it for this run.
@@ -13,6 +14,9 @@ pub(super) struct ModelArgs {
     /// Draw with this seed instead of the model's.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) seed: Option<u64>,
+    /// Draw as one realisation of a Latin hypercube: 3/100 is the third of a hundred, whose first one has the seed two below.
+    #[arg(long, value_name = "K/N")]
+    pub(super) stratum: Option<Stratum>,
     /// Override a value of the model file: feature.channel.width=30, domain.z=[-80,0]; repeatable.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,

@@ -29,7 +29,7 @@ pub(super) struct Loaded {
 }
 
 /// Reads and checks a model, and finds what is to be left out of it; `json` adds the defects as JSON on standard output.
-fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), Failure> {
+pub(super) fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), Failure> {
     let read = if args.is_standard_input() {
         Source::read_stream("standard input", std::io::stdin().lock())
     } else {
@@ -45,10 +45,11 @@ fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), Failure> {
     if let Some(seed) = args.seed {
         source.set(format!("seed={seed}"));
     }
-    let model = Model::check(&source).map_err(|defects| Failure::WrongModel {
+    let mut model = Model::check(&source).map_err(|defects| Failure::WrongModel {
         text: defects.render(std::io::stderr().is_terminal()),
         json: json.then(|| defects.to_json().to_string()),
     })?;
+    model.stratum = args.stratum;
     let selection = args
         .selection()
         .found_in(&model)
@@ -75,7 +76,7 @@ pub(super) fn realise(args: &ModelArgs, json: bool) -> Result<Loaded, Failure> {
 }
 
 /// Starts the worker threads: where they are started on demand, a system that has no more of them ends the program with a panic.
-fn start_threads() -> Result<(), Failure> {
+pub(super) fn start_threads() -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new()
         .build_global()
         .map_err(|error| {

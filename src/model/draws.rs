@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::domain::Domain;
+use super::stratum::Stratum;
 use super::stream::Stream;
 use super::values::distribution::Distribution;
 use super::values::profile::Profile as ProfileSpec;
@@ -14,6 +15,8 @@ use crate::features::profile::Profile;
 pub(crate) struct Key<'a> {
     /// The model's seed.
     pub(crate) seed: u64,
+    /// The model's place in a Latin hypercube.
+    pub(crate) stratum: Option<Stratum>,
     /// The feature's id.
     pub(crate) feature: &'a str,
     /// Numbers of the instance and its ancestors.
@@ -70,11 +73,19 @@ impl Draws<'_> {
     pub(crate) fn stream(&self, parameter: &str) -> Stream {
         let Key {
             seed,
+            stratum,
             feature,
             instance,
             attempt,
         } = self.key;
-        Stream::new(seed, feature, instance, parameter, attempt)
+        let stream = Stream::new(seed, feature, instance, parameter, attempt);
+        match stratum {
+            // An impossible draw is repeated outside of the hypercube: what its stratum holds may be impossible as a whole.
+            Some(stratum) if attempt == 0 => {
+                stream.stratified(stratum, seed, [feature, instance, parameter])
+            }
+            _ => stream,
+        }
     }
 
     pub(crate) fn quantity(&mut self, quantity: &Quantity, parameter: &str) -> Result<f64, Reason> {

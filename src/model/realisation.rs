@@ -204,6 +204,7 @@ fn draw_whole<T>(
     for attempt in 0..MOST_ATTEMPTS {
         let key = draws::Key {
             seed: model.seed,
+            stratum: model.stratum,
             feature: id,
             instance,
             attempt,

@@ -8,6 +8,7 @@ use super::facies::Facies;
 use super::kinds::FeatureKind;
 use super::place::{Note, Place};
 use super::references::{Host, Reference};
+use super::stratum::Stratum;
 use super::values::conform::ConformSpec;
 use super::values::property::PropertySpec;
 use super::values::selector::Selector;
@@ -22,6 +23,8 @@ pub struct Model {
     pub description: Option<String>,
     /// The seed of all draws.
     pub seed: u64,
+    /// Its place in a Latin hypercube of realisations, if its draws are stratified.
+    pub stratum: Option<Stratum>,
     /// Where the local origin lies in the world: recorded, and subtracted from files of heights; never added to the model's coordinates.
     pub origin: [f64; 3],
     /// The block that is modelled.

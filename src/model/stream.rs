@@ -10,12 +10,25 @@ use rand::rand_core::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
+use super::stratum::Stratum;
+
 /// Stands at the head of every key; changed only if the meaning of a key ever changes.
 const KEY_VERSION: &[u8] = b"clinothem stream 1";
 
 /// The random numbers of one parameter of one instance of one feature, in one attempt.
 #[derive(Clone, Debug)]
-pub struct Stream(ChaCha8Rng);
+pub struct Stream {
+    generator: ChaCha8Rng,
+    /// In a Latin hypercube: where the first number lies.
+    stratum: Option<Within>,
+}
+
+/// A stratum of the unit interval.
+#[derive(Clone, Copy, Debug)]
+struct Within {
+    from: f64,
+    width: f64,
+}
 
 impl Stream {
     /// The stream of `parameter` (a path, as `trajectory.amplitude`) of one instance of `feature`, whose number is written
@@ -31,20 +44,61 @@ impl Stream {
             key.update(text.as_bytes());
         }
         key.update(attempt.to_le_bytes());
-        Self(ChaCha8Rng::from_seed(key.finalize().into()))
+        Self {
+            generator: ChaCha8Rng::from_seed(key.finalize().into()),
+            stratum: None,
+        }
     }
 
-    /// The next number, uniform on [0, 1): a multiple of 2⁻⁵³.
+    /// The same in a Latin hypercube: the first number, where it would be u, is (k + u)/n. The stratum k of the n is another one in each
+    /// of the hypercube's n realisations, and which one it is depends on the feature, the instance and the parameter. What is
+    /// drawn after it, and attempts after the first one, are as without a hypercube.
+    #[must_use]
+    pub fn stratified(
+        self,
+        stratum: Stratum,
+        seed: u64,
+        [feature, instance, parameter]: [&str; 3],
+    ) -> Self {
+        let first = seed.wrapping_sub(stratum.place);
+        let number = stratum.number_of([feature, instance, parameter], first);
+        let width = 1.0 / stratum.of as f64;
+        Self {
+            stratum: Some(Within {
+                from: number as f64 * width,
+                width,
+            }),
+            ..self
+        }
+    }
+
+    /// The next number, uniform on [0, 1): a multiple of 2⁻⁵³, or in a stratum of that.
     pub fn unit(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1_u64 << 53) as f64;
-        (self.0.next_u64() >> 11) as f64 * STEP
+        let plain = (self.generator.next_u64() >> 11) as f64 * STEP;
+        match self.stratum.take() {
+            // Rounding must not lead to 1.
+            Some(Within { from, width }) => (from + width * plain).min(1.0 - STEP),
+            None => plain,
+        }
     }
 
     /// The next number of the standard normal distribution.
     pub fn standard_normal(&mut self) -> f64 {
         use rand_distr::Distribution as _;
-        rand_distr::StandardNormal.sample(&mut self.0)
+        if self.stratum.is_some() {
+            return normal_of(self.unit());
+        }
+        rand_distr::StandardNormal.sample(&mut self.generator)
     }
+}
+
+/// What a standard normal number exceeds with the probability `u`.
+fn normal_of(u: f64) -> f64 {
+    // Far out on either side the other tail would lose the digits; 0 itself would be infinite.
+    let tail = u.min(1.0 - u).max(f64::MIN_POSITIVE);
+    let size = std::f64::consts::SQRT_2 * puruspe::inverfc(2.0 * tail);
+    if u < 0.5 { -size } else { size }
 }
 
 #[cfg(test)]

@@ -64,6 +64,9 @@ pub struct ModelEntry {
     pub description: Option<String>,
     /// The seed of all draws.
     pub seed: u64,
+    /// The place in a Latin hypercube by which draws are stratified, as 3/100.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stratum: Option<String>,
     /// Where the local origin lies in the world (m).
     pub origin: [f64; 3],
 }

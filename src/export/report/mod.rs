@@ -68,6 +68,7 @@ impl Report {
                 name: model.name.clone(),
                 description: model.description.clone(),
                 seed: model.seed,
+                stratum: model.stratum.map(|stratum| stratum.to_string()),
                 origin: model.origin,
             },
             domain: DomainEntry {

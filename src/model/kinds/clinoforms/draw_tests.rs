@@ -12,6 +12,7 @@ use crate::model::{FeatureKind, Format, Model, Source};
 
 const KEY: Key<'_> = Key {
     seed: 3,
+    stratum: None,
     feature: "set",
     instance: "1",
     attempt: 0,

@@ -39,6 +39,7 @@ impl Place<'_> {
     pub(super) fn properties(&self, model: &Model) -> Result<VolumeProperties, String> {
         let key = Key {
             seed: model.seed,
+            stratum: model.stratum,
             feature: self.feature,
             instance: self.number,
             attempt: 0,
