@@ -5,6 +5,8 @@
 pub mod assembly;
 pub mod cli;
 pub mod data;
+#[cfg(feature = "occt")]
+pub mod ensemble;
 pub mod export;
 pub mod features;
 pub mod model;

@@ -194,18 +194,21 @@ fn read_job(input: &mut impl Read) -> std::io::Result<Vec<u8>> {
     }
 }
 
-/// Waits for the end of the input, which comes when the parent has ended or wants nothing more, and ends the process: the
-/// kernel may not look at a request to stop for hours.
-fn end_with_the_parent() {
-    let mut rest = Vec::new();
-    drop(std::io::stdin().lock().read_to_end(&mut rest));
-    std::process::exit(1);
+/// Ends this process when its standard input ends, which it does when the parent has ended or wants nothing more: the kernel may
+/// not look at a request to stop for hours.
+pub fn end_with_the_parent() -> std::io::Result<()> {
+    let wait = || {
+        let mut rest = Vec::new();
+        drop(std::io::stdin().lock().read_to_end(&mut rest));
+        std::process::exit(1);
+    };
+    std::thread::Builder::new().spawn(wait).map(drop)
 }
 
 /// The child's side: reads a job from standard input, writes the answer to `result`.
 pub fn serve(result: &Path) -> Result<(), WorkerError> {
     let bytes = read_job(&mut std::io::stdin().lock())?;
-    std::thread::Builder::new().spawn(end_with_the_parent)?;
+    end_with_the_parent()?;
     let job: FuseJob =
         postcard::from_bytes(&bytes).map_err(|error| WorkerError::Answer(error.to_string()))?;
     let last = std::sync::atomic::AtomicU32::new(0);

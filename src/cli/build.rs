@@ -76,7 +76,7 @@ pub(super) struct EngineArgs {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum Engine {
+pub(super) enum Engine {
     /// The partition; where it is in doubt or not proven, the general fuse.
     #[default]
     Auto,
@@ -97,10 +97,12 @@ impl From<Engine> for assembly::Engine {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
+pub(super) enum Format {
     Step,
     StepShared,
     Brep,
+    /// Tables only.
+    #[value(alias = "tables")]
     None,
 }
 
@@ -123,7 +125,7 @@ impl From<Schema> for step::Protocol {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum ProofLevel {
+pub(super) enum ProofLevel {
     #[default]
     Fast,
     Full,
@@ -264,7 +266,7 @@ pub(super) fn assemble(
         Err(error) => {
             progress.done();
             Err(match error {
-                AssemblyError::Cancelled => Failure::Interrupted,
+                AssemblyError::Cancelled => Failure::Interrupted(Failure::INTERRUPTED),
                 AssemblyError::Threads(_)
                 | AssemblyError::Worker {
                     source: worker::WorkerError::Io(_),

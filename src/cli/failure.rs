@@ -15,15 +15,22 @@ pub(super) enum Failure {
     Unproven(String),
     /// Disk, permissions, processes.
     Surroundings(String),
-    /// Stopped on request.
+    /// Stopped on request, with what became of the work.
     #[cfg_attr(
         not(feature = "occt"),
         expect(dead_code, reason = "nothing takes long without the kernel")
     )]
-    Interrupted,
+    Interrupted(&'static str),
 }
 
 impl Failure {
+    /// What is said of a command that was interrupted before it wrote anything.
+    #[cfg_attr(
+        not(feature = "occt"),
+        expect(dead_code, reason = "nothing takes long without the kernel")
+    )]
+    pub(super) const INTERRUPTED: &str = "interrupted; nothing was written";
+
     /// A file operation that failed.
     pub(super) fn file(what: &str, path: &std::path::Path, error: &std::io::Error) -> Self {
         Self::Surroundings(format!("cannot {what} {}: {error}", path.display()))

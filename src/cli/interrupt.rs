@@ -19,6 +19,11 @@ const GRACE: Duration = Duration::from_millis(600);
 
 /// A cancel that Ctrl-C and a termination request set.
 pub(super) fn cancel() -> Result<Cancel, Failure> {
+    cancel_saying(Failure::INTERRUPTED)
+}
+
+/// The same of a command that has other last words.
+pub(super) fn cancel_saying(words: &'static str) -> Result<Cancel, Failure> {
     let cancel = Cancel::new();
     let handled = cancel.clone();
     ctrlc::set_handler(move || {
@@ -28,7 +33,7 @@ pub(super) fn cancel() -> Result<Cancel, Failure> {
         if let Some(folder) = unfinished().take() {
             drop(std::fs::remove_dir_all(folder));
         }
-        print::err("interrupted; nothing was written");
+        print::err(words);
         std::process::exit(130);
     })
     .map_err(|error| Failure::Surroundings(format!("Ctrl-C cannot be caught: {error}")))?;

@@ -8,6 +8,10 @@ mod args;
 #[cfg(feature = "occt")]
 mod build;
 mod check;
+#[cfg(feature = "occt")]
+mod ensemble;
+#[cfg(feature = "occt")]
+mod ensemble_worker;
 mod failure;
 mod files;
 #[cfg(feature = "occt")]
@@ -19,6 +23,8 @@ mod picture;
 mod print;
 #[cfg(feature = "occt")]
 mod progress;
+#[cfg(feature = "occt")]
+mod scenarios;
 mod schema;
 mod section;
 #[cfg(feature = "occt")]
@@ -59,12 +65,18 @@ enum Command {
     #[cfg(feature = "occt")]
     Build(build::Args),
     #[cfg(feature = "occt")]
+    Ensemble(ensemble::Args),
+    #[cfg(feature = "occt")]
     Surfaces(surfaces::Args),
     Locate(locate::Args),
     Section(section::Args),
     #[cfg(feature = "occt")]
     View(view::Args),
     Schema(schema::Args),
+    /// Makes a realisation for another process of this program.
+    #[cfg(feature = "occt")]
+    #[command(name = crate::ensemble::workers::COMMAND, hide = true)]
+    EnsembleWorker(Box<ensemble_worker::Args>),
     /// Runs a general fuse for another process of this program.
     #[cfg(feature = "occt")]
     #[command(name = crate::assembly::worker::COMMAND, hide = true)]
@@ -102,6 +114,10 @@ impl Command {
             Self::Check(args) => check::run(&args),
             #[cfg(feature = "occt")]
             Self::Build(args) => build::run(&args),
+            #[cfg(feature = "occt")]
+            Self::Ensemble(args) => ensemble::run(&args),
+            #[cfg(feature = "occt")]
+            Self::EnsembleWorker(args) => ensemble_worker::run(&args),
             #[cfg(feature = "occt")]
             Self::Surfaces(args) => surfaces::run(&args),
             Self::Locate(args) => locate::run(&args),

@@ -37,7 +37,7 @@ pub(super) fn failure(failure: Failure) -> ExitCode {
         }
         Failure::Unproven(text) => (2, format!("error: {text}")),
         Failure::Surroundings(text) => (3, format!("error: {text}")),
-        Failure::Interrupted => (130, "interrupted; nothing was written".to_owned()),
+        Failure::Interrupted(words) => (130, words.to_owned()),
     };
     err(text.trim_end());
     ExitCode::from(code)

@@ -7,7 +7,7 @@ use super::names::{Names, Path};
 use super::tree::Tree;
 
 /// Each layer with the layers that it may name besides itself, lowest first.
-const LAYERS: [(&str, &[&str]); 8] = [
+const LAYERS: [(&str, &[&str]); 9] = [
     ("data", &[]),
     ("nurbs", &[]),
     ("features", &["nurbs"]),
@@ -15,7 +15,13 @@ const LAYERS: [(&str, &[&str]); 8] = [
     ("partition", &["nurbs"]),
     ("assembly", &["partition", "model", "features", "nurbs"]),
     ("export", &["assembly", "model", "features", "nurbs"]),
-    ("cli", &["export", "assembly", "model", "features", "nurbs"]),
+    ("ensemble", &["export", "assembly", "model"]),
+    (
+        "cli",
+        &[
+            "ensemble", "export", "assembly", "model", "features", "nurbs",
+        ],
+    ),
 ];
 
 /// The only file that may name the kernel's bridge.

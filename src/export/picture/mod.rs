@@ -12,6 +12,7 @@ mod camera;
 mod canvas;
 pub mod cap;
 mod check;
+mod drawing;
 mod face;
 mod figure;
 mod font;
@@ -33,6 +34,8 @@ mod ticks;
 pub mod view;
 
 use std::fmt;
+
+pub use drawing::rasterised;
 
 /// A colour: red, green, blue, each 0 to 255 in sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
