@@ -123,7 +123,9 @@ fn list_of(value: &Value) -> String {
         "quantity" => format!("{many} quantities"),
         "number" => format!("{many} numbers"),
         "text" => format!("{many} names"),
-        "list of numbers" | "three numbers" | "list of lists" => "list of lists".to_owned(),
+        "list of numbers" | "two numbers" | "three numbers" | "list of lists" => {
+            "list of lists".to_owned()
+        }
         _ => "list of tables".to_owned(),
     }
 }

@@ -9,12 +9,14 @@
 #[path = "assembled/checked.rs"]
 mod checked;
 
+use std::fmt::Write as _;
+
 use clinothem::features::survey::{Reading, Station, by_angles};
 use clinothem::features::well::{Path, Well};
 use clinothem::model::owner::Owners;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::wells::log::{Logger, WellLog};
+use clinothem::model::wells::log::{Interval, Logger, WellLog};
 use clinothem::model::{Format, Model, Source};
 use clinothem::nurbs::interpolate::Parametrization;
 use glam::DVec3;
@@ -237,7 +239,7 @@ fn compare(made: &Made, random: &mut Random, name: &str) -> usize {
             vec![top.with_z(high.z), top.with_z(low.z)]
         }
         kind if kind < 0.4 => vec![random.within(low, high), random.within(low, high)],
-        kind => (0..3 + (kind * 4.0) as usize)
+        kind => (0..if kind < 0.7 { 3 } else { 6 })
             .map(|_| random.within(low, high))
             .collect(),
     };
@@ -321,7 +323,7 @@ fn a_thousand_random_wells_change_volumes_where_dense_sampling_of_the_evaluator_
 #[test]
 fn the_log_of_the_models_wells_is_as_long_as_they_are_in_the_domain() {
     let text = format!(
-        "{LAYERS}\n[[well]]\nid = \"A\"\nhead = [500, 500]\ndatum = 25\nsurvey = [{{ md = 0, inc_deg = 0, azi_deg = 0 }}, {{ md = 80, inc_deg = 0, azi_deg = 0 }}, {{ md = 200, inc_deg = 60, azi_deg = 90 }}]\ncompletions = [[60, 70], [90, 100]]\n"
+        "{LAYERS}\n[[well]]\nid = \"A\"\nhead = [500, 500]\ndatum = 25\npath = \"minimum-curvature\"\nsurvey = [{{ md = 0, inc_deg = 0, azi_deg = 0 }}, {{ md = 80, inc_deg = 0, azi_deg = 0 }}, {{ md = 200, inc_deg = 60, azi_deg = 90 }}]\ncompletions = [[60, 70], [90, 100]]\n"
     );
     let made = Made::of(Model::check(&Source::from_text("a.toml", text, Format::Toml)).unwrap());
     let spec = &made.model.wells[0];
@@ -330,7 +332,7 @@ fn the_log_of_the_models_wells_is_as_long_as_they_are_in_the_domain() {
         .intervals
         .iter()
         .filter(|one| one.volume.is_some())
-        .map(|one| one.length())
+        .map(Interval::length)
         .sum();
     // From the domain's top, 25 m below the datum, to its base or the end.
     assert_eq!(log.intervals[0].volume, None);
@@ -339,11 +341,121 @@ fn the_log_of_the_models_wells_is_as_long_as_they_are_in_the_domain() {
         .intervals
         .iter()
         .filter(|one| one.volume.is_none())
-        .map(|one| one.length())
+        .map(Interval::length)
         .sum();
     assert!((inside + outside - 200.0).abs() < 1e-9);
     assert!((log.intervals[1].md[1] - 65.0).abs() < 1e-7);
     assert!((spec.open(log.intervals[1].md) - 5.0).abs() < 1e-7);
     assert_eq!(log.at(64.9), made.realisation.volume("upper"));
     assert_eq!(log.at(65.1), made.realisation.volume("lower"));
+}
+
+const TOPS: &str = "well,horizon,md\nA,upper,42.5\nB,upper,38\nC,upper,40.25\nA,lower,69\n";
+
+/// Layers with three vertical wells and tops in them; `honours` goes into the upper horizon.
+fn with_tops(honours: &str) -> Model {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("tops.csv"), TOPS).unwrap();
+    let mut text = format!("tops = \"tops.csv\"\n{LAYERS}{honours}\n");
+    for (id, x, y) in [("A", 200, 300), ("B", 260, 300), ("C", 800, 700)] {
+        let _ = write!(
+            text,
+            "[[well]]\nid = \"{id}\"\nhead = [{x}, {y}]\nsurvey = [{{ md = 0, inc_deg = 0, azi_deg = 0 }}, {{ md = 90, inc_deg = 0, azi_deg = 0 }}]\n"
+        );
+    }
+    let source = Source::from_text("tops.toml", text, Format::Toml).in_folder(folder.path());
+    checked::checked(&source)
+}
+
+#[test]
+fn a_horizon_misses_its_tops_by_their_depth_less_its_own_and_passes_through_them_where_it_honours_them()
+ {
+    let plain = Made::of(with_tops(""));
+    let misfits = |made: &Made| -> Vec<f64> {
+        let misfit = |top: &clinothem::model::wells::spec::TopSpec| {
+            top.misfit(&made.realisation).above.unwrap()
+        };
+        made.model.tops.iter().map(misfit).collect()
+    };
+    for (found, expected) in misfits(&plain).iter().zip([2.5, -2.0, 0.25, -1.0]) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+    let honouring = Made::of(with_tops("honours_tops = { reach = 400 }"));
+    let after = misfits(&honouring);
+    assert!(
+        after[..3].iter().all(|misfit| misfit.abs() < 1e-5),
+        "{after:?}"
+    );
+    assert!((after[3] + 1.0).abs() < 1e-9);
+    // So the wells enter the bed below where they were picked.
+    for (well, md) in honouring.model.wells.iter().zip([42.5, 38.0, 40.25]) {
+        let log = honouring.log(&well.well);
+        assert_eq!(honouring.names(&log), ["upper", "lower", "background"]);
+        assert!((log.intervals[0].md[1] - md).abs() < 1e-5, "{log:?}");
+    }
+    let decisions = honouring.realisation.decisions.join("\n");
+    assert!(
+        decisions.contains("upper passes through 3 tops, of which it was 2.50 m off at most"),
+        "{decisions}"
+    );
+    // Far from them nothing is changed.
+    let far = DVec3::new(990.0, 10.0, -40.0 + 1e-3);
+    assert_eq!(
+        honouring.owners.at(far),
+        honouring.realisation.volume("upper")
+    );
+    assert_eq!(
+        honouring.owners.at(far - 2e-3 * DVec3::Z),
+        honouring.realisation.volume("lower")
+    );
+}
+
+#[test]
+fn the_wells_of_the_figure_leave_one_site_and_end_in_the_rocks_that_they_were_drilled_for() {
+    let made = Made::of(checked::checked(&checked::source(
+        "fig02-wells/fig02-wells",
+    )));
+    let names: Vec<&str> = made
+        .model
+        .wells
+        .iter()
+        .map(|well| well.name.as_str())
+        .collect();
+    assert_eq!(names, ["A-1", "A-2", "A-3", "A-3/lower", "A-4", "A-5"]);
+    assert!(made.model.notes.is_empty(), "{:?}", made.model.notes);
+    // Local coordinates of the site, 25 m above the sea, which is 2000 m above the model's top.
+    let site = DVec3::new(220.0, 80.0, 2025.0);
+    for well in &made.model.wells {
+        let log = made.log(&well.well);
+        let inside: f64 = log
+            .intervals
+            .iter()
+            .filter(|one| one.volume.is_some())
+            .map(Interval::length)
+            .sum();
+        assert_eq!(log.unexplained, 0);
+        assert!(
+            log.along.is_empty() && log.touches.is_empty(),
+            "{}",
+            well.name
+        );
+        if well.mother.is_none() {
+            assert!(well.well.point(0.0).distance(site) < 1e-6, "{}", well.name);
+            assert!(inside > 50.0, "{}: {inside}", well.name);
+        }
+        let open: f64 = well.completions.iter().map(|[from, to]| to - from).sum();
+        let perforated: f64 = log.intervals.iter().map(|one| well.open(one.md)).sum();
+        assert!((open - perforated).abs() < 1e-9);
+    }
+    let (mother, lateral) = (&made.model.wells[2].well, &made.model.wells[3].well);
+    let first = lateral.curve().points()[0];
+    assert!(mother.curve().points().contains(&first));
+    // A straight well is 51.816 m in a domain so thick, and the horizons are where they are.
+    let log = made.log(&made.model.wells[0].well);
+    assert!((log.intervals[0].md[1] - 2025.0).abs() < 1e-7);
+    assert!(
+        log.crossings
+            .iter()
+            .any(|one| (one.point.z + 21.336).abs() < 1e-7)
+    );
 }

@@ -26,7 +26,7 @@ def positions(stations):
 
 def horizontal():
     """Down to 1744 m, up to 90° by 6° in 30 m, and on through the upper shoreface."""
-    stations = [(0.0, 0.0, 350.0), (600.0, 0.0, 350.0), (1200.0, 0.0, 350.0), (1744.0, 0.0, 350.0)]
+    stations = [(43.6 * k, 0.0, 350.0) for k in range(41)]
     stations += [(1744.0 + 15.0 * k, 3.0 * k, 350.0) for k in range(1, 31)]
     stations += [(2194.0 + 30.0 * k, 90.0, 350.0) for k in range(1, 9)]
     return stations

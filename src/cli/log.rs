@@ -10,6 +10,7 @@ use super::files;
 use super::load::{self, Loaded};
 use super::print;
 use crate::export::wells::entries::{WellEntry, Wells};
+use crate::export::wells::gocad::GocadWell;
 use crate::export::wells::las::Las;
 use crate::export::wells::table;
 use crate::features::survey::Station;
@@ -41,7 +42,8 @@ pub(super) struct Args {
     /// From line to line of a log, in the unit of the well's depths.
     #[arg(long, value_name = "LENGTH", value_parser = finite, default_value = "0.1", allow_negative_numbers = true)]
     step: f64,
-    /// Where to write; the name's ending, .csv or .las, decides the format. Printed as CSV if not given.
+    /// Where to write; the name's ending decides the format: .csv, .las (a log), .wl (a GOCAD well: the path with markers). Printed as
+    /// CSV if not given.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Print JSON: what a build's report says of wells.
@@ -54,6 +56,7 @@ pub(super) struct Args {
 enum Format {
     Csv,
     Las,
+    Gocad,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -67,24 +70,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         None => wells(args, &loaded)?,
     };
     let logs: Vec<WellLog> = chosen.iter().map(|spec| spec.log(&logger)).collect();
-    if let (Format::Las, Some(path)) = (format, &args.output) {
+    if let (Format::Las | Format::Gocad, Some(path)) = (format, &args.output) {
         let ([spec], [log]) = (&chosen[..], &logs[..]) else {
             return Err(Failure::Wrong(format!(
-                "a LAS file holds one well, and there are {}; choose one with --well",
+                "such a file holds one well, and there are {}; choose one with --well",
                 chosen.len()
             )));
         };
-        let las = Las {
-            model: &loaded.model,
-            realisation: &loaded.realisation,
-            spec,
-            log,
-            step: args.step,
-        };
-        let text = las
-            .text()
-            .map_err(|error| Failure::Wrong(error.to_string()))?;
-        return files::write(path, text.as_bytes());
+        return files::write(path, of_one(args, format, &loaded, spec, log)?.as_bytes());
     }
     let wells = Wells {
         model: &loaded.model,
@@ -107,6 +100,35 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
+/// A file of one well.
+fn of_one(
+    args: &Args,
+    format: Format,
+    loaded: &Loaded,
+    spec: &WellSpec,
+    log: &WellLog,
+) -> Result<String, Failure> {
+    let (model, realisation) = (&loaded.model, &loaded.realisation);
+    if format == Format::Gocad {
+        let well = GocadWell {
+            model,
+            realisation,
+            spec,
+            log,
+        };
+        return Ok(well.text());
+    }
+    let las = Las {
+        model,
+        realisation,
+        spec,
+        log,
+        step: args.step,
+    };
+    las.text()
+        .map_err(|error| Failure::Wrong(error.to_string()))
+}
+
 /// What the output's name asks for.
 fn format(args: &Args) -> Result<Format, Failure> {
     let Some(path) = &args.output else {
@@ -118,8 +140,9 @@ fn format(args: &Args) -> Result<Format, Failure> {
     match ending.as_deref() {
         Some("csv") => Ok(Format::Csv),
         Some("las") => Ok(Format::Las),
+        Some("wl") => Ok(Format::Gocad),
         _ => Err(Failure::Wrong(format!(
-            "{}: a log's name ends in .csv or .las",
+            "{}: a log's name ends in .csv, .las or .wl",
             path.display()
         ))),
     }
@@ -162,9 +185,10 @@ fn vertical([x, y]: [f64; 2], loaded: &Loaded) -> Result<WellSpec, Failure> {
         )));
     }
     let [base, top] = domain.z;
-    let datum = top.max(0.0);
+    let sea_level = -loaded.model.origin[2];
+    let reference = top.max(sea_level);
     let station = |z: f64| Station {
-        md: Some(datum - z),
+        md: Some(reference - z),
         point: DVec3::new(x, y, z),
         tangent: None,
     };
@@ -176,8 +200,8 @@ fn vertical([x, y]: [f64; 2], loaded: &Loaded) -> Result<WellSpec, Failure> {
         mother: None,
         well,
         path,
-        datum,
-        sea_level: 0.0,
+        datum: reference - sea_level,
+        sea_level,
         unit: METRE,
         completions: Vec::new(),
         diameter: None,

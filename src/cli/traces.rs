@@ -38,7 +38,7 @@ fn nearest(line: &[DVec2], point: DVec2) -> (f64, f64) {
     best
 }
 
-/// The paths as far as they are shown and lie in the frame; the first part of each has its name.
+/// The paths as far as they are shown and lie in the frame; the end of each has its name.
 fn traces(model: &Model, extent: Extent, project: impl Fn(DVec3) -> Option<DVec2>) -> Vec<Trace> {
     let (low, high) = (
         DVec2::new(extent.horizontal[0], extent.vertical[0]),
@@ -58,12 +58,19 @@ fn traces(model: &Model, extent: Extent, project: impl Fn(DVec3) -> Option<DVec2
                 _ => {}
             }
         }
-        let mut name = spec.name.clone();
-        for line in parts.into_iter().filter(|part| part.len() > 1) {
-            traces.push(Trace {
-                ends: [std::mem::take(&mut name), String::new()],
-                line,
-            });
+        let own = traces.len();
+        traces.extend(
+            parts
+                .into_iter()
+                .filter(|part| part.len() > 1)
+                .map(|line| Trace {
+                    ends: [String::new(), String::new()],
+                    line,
+                }),
+        );
+        // A lateral begins where its mother is.
+        if let Some(last) = traces[own..].last_mut() {
+            last.ends[1].clone_from(&spec.name);
         }
     }
     traces

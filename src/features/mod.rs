@@ -21,6 +21,7 @@ mod fan;
 pub mod fitted;
 pub mod frame;
 pub mod free_clinoform;
+pub mod honouring;
 pub mod horizon;
 pub mod join;
 pub mod junction;

@@ -99,7 +99,8 @@ fn a_spline_keeps_the_depths_of_its_stations_and_grows_by_its_arc_length_between
             .distance(arcs.point(f64::from(md)))
     });
     let most = apart.fold(0.0, f64::max);
-    assert!(most > 1e-3 && most < 0.1, "{most}");
+    // A cubic spline misses a circle by about h⁴ κ³ 5/384 within a turn: 6e-5 m here, and more near its ends.
+    assert!(most > 1e-5 && most < 1e-3, "{most}");
 }
 
 #[test]

@@ -13,8 +13,7 @@ use super::values::conform::ConformSpec;
 use super::values::property::PropertySpec;
 use super::values::selector::Selector;
 use super::values::surface::{FileSurface, HorizonSurface};
-use super::wells::spec::WellSpec;
-use super::wells::tops::TopSpec;
+use super::wells::spec::{TopSpec, WellSpec};
 
 /// A checked model.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,7 +23,12 @@ impl Curve {
 #[derive(Clone, Debug)]
 pub struct ArcLength {
     pieces: Vec<(Patch, Region)>,
+    /// Lengths of this curve cannot be told apart below this.
+    rounding: f64,
 }
+
+/// Rounding of sums of speeds, as a fraction of what is summed: asked for more, halving would go on for ever.
+const ROUNDING: f64 = 1e-14;
 
 /// Steps of Newton's method, each of which at least halves the bracket.
 const MOST_STEPS: usize = 100;
@@ -31,14 +36,21 @@ const MOST_STEPS: usize = 100;
 impl ArcLength {
     /// Of a curve.
     pub fn new(curve: &Curve) -> Self {
+        let points = curve.points();
+        let polygon: f64 = points.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
+        let reach = points
+            .iter()
+            .map(|p| p.abs().max_element())
+            .fold(0.0, f64::max);
         Self {
             pieces: Patch::of_curve(curve),
+            rounding: ROUNDING * (polygon + reach),
         }
     }
 
     /// The length from one parameter to a later one, to within the tolerance (at least rounding).
     pub fn between(&self, from: f64, to: f64, tolerance: f64) -> f64 {
-        let share = tolerance / self.pieces.len() as f64;
+        let share = (tolerance / self.pieces.len() as f64).max(self.rounding);
         let within = |(patch, region): &(Patch, Region)| {
             let [start, end] = region.u;
             let (low, high) = (from.max(start), to.min(end));

@@ -23,7 +23,7 @@ const APART: f64 = 0.8;
 /// So many undecided pairs of one segment and one patch, halved equally often, only a curve along a surface has.
 const MOST_UNDECIDED: usize = 384;
 /// Halvings after which a pair is undecided.
-const MOST_HALVINGS: usize = 120;
+const MOST_HALVINGS: usize = 240;
 
 /// A place where a curve passes through a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

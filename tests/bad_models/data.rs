@@ -68,9 +68,6 @@ pub(crate) const KEYS_OF_FILES: &[&str] = &[
     "null",
     "plan_unit",
     "positive",
-    "tops",
-    "tvd",
-    "tvdss",
     "unit",
     "world",
 ];

@@ -383,7 +383,10 @@ fn every_key_of_the_schema_is_in_a_good_model_and_so_in_broken_ones() {
     known.remove("$schema");
     known.remove("$ref");
     // What goes with a file of heights is broken beside such a file.
-    for key in super::data::KEYS_OF_FILES {
+    for key in super::data::KEYS_OF_FILES
+        .iter()
+        .chain(super::wells::KEYS_OF_FILES)
+    {
         assert!(known.remove(*key), "{key}");
     }
     let mut tried = BTreeSet::new();

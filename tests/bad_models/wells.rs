@@ -8,11 +8,17 @@ use super::{Edit, check_edits, edited};
 
 const WELL: &str = include_str!("well.toml");
 
+/// The keys that go with files, and are broken beside such a file.
+pub(crate) const KEYS_OF_FILES: &[&str] = &["tops", "tvd", "tvdss"];
+
 const FIRST: &str = "{ md = 0, inc_deg = 0, azi_deg = 0 },\n";
 
 /// Finds this in the good file, puts that in its place, expects these words.
 #[rustfmt::skip]
 const EDITS: &[Edit] = &[
+    ("{ reach = 300 }", "{ reach = ▸0 }", &["reach", "above 0"]),
+    ("{ reach = 300 }", "▸{}", &["has no `reach`"]),
+    ("{ reach = 300 }", "▸300", &["honours_tops"]),
     ("id = \"A-1\"\n", "", &["has no `id`"]),
     ("id = \"A-1\"", "id = ▸\"A 1\"", &["\"A 1\" is not an id", "letters, digits"]),
     ("id = \"A-2\"", "id = ▸\"A-1\"", &["two wells \"A-1\"", "another id"]),
@@ -28,20 +34,21 @@ const EDITS: &[Edit] = &[
     ("diameter = 0.2159", "diameter = ▸0", &["diameter", "above 0", "0.2159"]),
     ("[[700, 750], [800, 850]]", "[▸[750, 700], [800, 850]]", &["completion of well \"A-1\" from 750 to 700 is the wrong way round"]),
     ("[[700, 750], [800, 850]]", "[[700, 750], ▸[800, 950]]", &["not on well \"A-1\"", "900.00"]),
-    ("[[700, 750], [800, 850]]", "▸[700, 750]", &["expected [from, to]"]),
+    ("[[700, 750], [800, 850]]", "[▸700]", &["expected [from, to]"]),
     ("[[700, 750], [800, 850]]", "▸7", &["expected a list of ranges", "completions"]),
     ("[[700, 780]]", "[▸[300, 780]]", &["not on lateral \"north\""]),
     ("at_md = 500", "at_md = ▸950", &["cannot leave well \"A-1\"", "950", "from 0 to 900"]),
     ("at_md = 500, ", "", &["has no `at_md`"]),
     ("laterals = [{ id", "laterals = 7 #", &["laterals"]),
-    (FIRST, "{ md = 0, inc_deg = 0, ▸azimuth = 0 },\n", &["unknown key `azimuth`", "azi_deg"]),
+    (FIRST, "{ md = 0, inc_deg = 0, azi_deg = 0, ▸azm = 0 },\n", &["unknown key `azm`", "azi_deg"]),
     (FIRST, "▸{ md = 0, inc_deg = 0 },\n", &["has no `azi_deg`"]),
     (FIRST, "{ md = ▸nan, inc_deg = 0, azi_deg = 0 },\n", &["md", "finite"]),
     (FIRST, "{ md = 0, inc_deg = ▸190, azi_deg = 0 },\n", &["inc_deg", "between 0 and 180"]),
-    (FIRST, "{ md = 0, inc_deg = 0, azi_deg = 0, x = ▸3 },\n", &["x"]),
-    ("{ md = 400, inc_deg = 0, azi_deg = 45 }", "▸{ md = 600, inc_deg = 0, azi_deg = 45 }", &["not below", "600"]),
+    (FIRST, "{ md = 0, inc_deg = 0, azi_deg = 0, x = ▸3 },\n", &["has a `x`", "of one kind"]),
+    ("{ md = 400, inc_deg = 0, azi_deg = 45 }", "▸{ x = 1, y = 2, z = 3 }", &["another kind than the first"]),
+    ("{ md = 400, inc_deg = 0, azi_deg = 45 },\n  {", "{ md = 600, inc_deg = 0, azi_deg = 45 },\n  ▸{", &["not below", "600"]),
     ("{ md = 600, inc_deg = 40, azi_deg = 45 }", "▸{ md = 600, inc_deg = 180, azi_deg = 45 }", &["turns by 180.0°", "inclination and azimuth"]),
-    ("distance = 300", "distance = ▸0", &["distance", "above 0"]),
+    ("{ azi_deg = 90, dip_deg = 90, distance = 300 }", "▸{ azi_deg = 90, dip_deg = 90, distance = 0 }", &["distance", "above 0"]),
     ("dip_deg = 60", "dip_deg = ▸100", &["dip_deg", "between -90 and 90"]),
     ("{ x = 150, y = 210, z = -400 }", "▸{ x = 100, y = 200, z = 0 }", &["at one place"]),
     (", { x = 150, y = 210, z = -400 }, { x = 300, y = 230, z = -700 }", "", &["needs two", "two stations"]),
@@ -242,7 +249,7 @@ fn tops_of_unknown_wells_and_horizons_or_off_their_well_are_told_all_at_once_by_
     for words in [
         "line 2: there is no well \"B-1\"",
         "line 3: there is no horizon \"topp\"",
-        "did you mean `top`?",
+        "did you mean \"top\"?",
         "line 4: a measured depth of 5400 m",
     ] {
         assert!(defects.contains(words), "{words}: {defects}");

@@ -28,8 +28,8 @@ pub(super) fn read(text: &str) -> Result<Raw, SurveyFileError> {
                 x = said();
             } else if upper.contains("HEAD Y") {
                 y = said();
-            } else if upper.contains("DATUM") {
-                raw.datum = said();
+            } else if let Some(datum) = said().filter(|_| upper.contains("WELL DATUM")) {
+                raw.datum = Some(datum);
                 let unit = value
                     .split_once('(')
                     .and_then(|(_, rest)| rest.split_once(')'));

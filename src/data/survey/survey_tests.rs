@@ -8,6 +8,7 @@ const DEV: &str = "# WELL TRACE FROM PETREL \r
 # WELL HEAD Y-COORDINATE: 6782714.50000000 (m)\r
 # WELL DATUM (KB, Kelly bushing, from MSL): 25.00000000 (m)\r
 # WELL TYPE:              OIL \r
+# MD AND TVD ARE REFERENCED (=0) AT WELL DATUM AND INCREASE DOWNWARDS\r
 #=======================================================================\r
       MD              X              Y             Z           TVD           DX           DY         AZIM_TN      INCL         DLS       AZIM_GN\r
 #=======================================================================\r
@@ -41,7 +42,7 @@ fn a_petrel_trace_gives_its_head_its_datum_and_grid_azimuths() {
     assert_eq!(table.datum, Some(25.0));
     assert_eq!(table.unit.as_deref(), Some("m"));
     let row = &table.rows[1];
-    assert_eq!(row.line, 11);
+    assert_eq!(row.line, 12);
     let value = |column| table.value(row, column).unwrap();
     assert_eq!(value(Column::Md), 100.0);
     assert_eq!(value(Column::Azimuth), 0.5);

@@ -74,7 +74,7 @@ pub struct SectionFigure {
     pub subtitle: String,
     /// A section or a map.
     pub kind: Kind,
-    /// Paths to be drawn over it, in the extent's coordinates; of each the first name is written at its start.
+    /// Paths to be drawn over it, in the extent's coordinates; names that are not empty are written at their ends.
     pub wells: Vec<Trace>,
     /// What the raster covers.
     pub extent: Extent,

@@ -9,8 +9,7 @@ use crate::features::well::Path;
 use crate::model::Model;
 use crate::model::realisation::Realisation;
 use crate::model::wells::log::{Crossing, Interval, Logger, Touch, WellLog};
-use crate::model::wells::spec::WellSpec;
-use crate::model::wells::tops::TopSpec;
+use crate::model::wells::spec::{TopSpec, WellSpec};
 use crate::nurbs::interpolate::Parametrization;
 
 /// A well, and what it passes through. Depths are metres.
@@ -254,8 +253,8 @@ impl Wells<'_> {
                 .collect(),
             touches: log.touches.iter().map(|one| self.touch(one)).collect(),
             along_m: log.along.clone(),
-            volumes: self.lengths(spec, log, |volume| volume, |volume| self.name(volume)),
-            facies: self.lengths(
+            volumes: lengths(spec, log, |volume| volume, |volume| self.name(volume)),
+            facies: lengths(
                 spec,
                 log,
                 |volume| self.facies_index(volume),
@@ -320,29 +319,29 @@ impl Wells<'_> {
                 .collect(),
         }
     }
+}
 
-    fn lengths(
-        &self,
-        spec: &WellSpec,
-        log: &WellLog,
-        key: impl Fn(usize) -> usize,
-        name: impl Fn(usize) -> String,
-    ) -> Vec<LengthEntry> {
-        let mut sums: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
-        for one in &log.intervals {
-            if let Some(volume) = one.volume {
-                let sum = sums.entry(key(volume)).or_default();
-                sum.0 += one.length();
-                sum.1 += spec.open(one.md);
-            }
+/// How long a well is in whatever volumes are counted as.
+fn lengths(
+    spec: &WellSpec,
+    log: &WellLog,
+    key: impl Fn(usize) -> usize,
+    name: impl Fn(usize) -> String,
+) -> Vec<LengthEntry> {
+    let mut sums: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+    for one in &log.intervals {
+        if let Some(volume) = one.volume {
+            let sum = sums.entry(key(volume)).or_default();
+            sum.0 += one.length();
+            sum.1 += spec.open(one.md);
         }
-        let entry = |(key, (length_m, perforated_m))| LengthEntry {
-            name: name(key),
-            length_m,
-            perforated_m,
-        };
-        sums.into_iter().map(entry).collect()
     }
+    let entry = |(key, (length_m, perforated_m))| LengthEntry {
+        name: name(key),
+        length_m,
+        perforated_m,
+    };
+    sums.into_iter().map(entry).collect()
 }
 
 /// What a path is called in reports.

@@ -6,6 +6,7 @@ pub(crate) mod conform;
 pub(crate) mod distribution;
 pub(crate) mod ends;
 pub(crate) mod facies;
+pub(crate) mod honours;
 pub(crate) mod junction;
 pub(crate) mod limits;
 pub(crate) mod lobe;

@@ -35,7 +35,7 @@ pub(crate) struct WellFile {
     pub(crate) plan_unit: Option<Field<String>>,
     /// Whether coordinates are those of the world, from which the model's `origin` is subtracted; if left out, true of those in a file and false of those in the model file.
     pub(crate) world: Option<Field<bool>>,
-    /// The stations: a list of tables { md, inc_deg, azi_deg }, { azi_deg, dip_deg, distance } or { x, y, z }; or a file of them.
+    /// The stations: a list of tables `{ md, inc_deg, azi_deg }`, `{ azi_deg, dip_deg, distance }` or `{ x, y, z }`; or a file of them.
     #[schemars(schema_with = "survey")]
     pub(crate) survey: Field<Any>,
     /// How stations are joined: "spline", a NURBS curve through all of them, or "minimum-curvature", arcs of circles; "spline" if left out.
@@ -120,7 +120,7 @@ pub(crate) struct SurveyOfFile {
     #[schemars(schema_with = "formats")]
     #[serde(default)]
     pub(crate) format: Option<Field<String>>,
-    /// What its columns are called, by what they mean: { md = "DEPTH", inc_deg = "DEVI", azi_deg = "HAZI" }, or their numbers from 1. They are found by their usual names if left out.
+    /// What its columns are called, by what they mean: `{ md = "DEPTH", inc_deg = "DEVI", azi_deg = "HAZI" }`, or their numbers from 1. They are found by their usual names if left out.
     #[schemars(schema_with = "columns")]
     #[serde(default)]
     pub(crate) columns: Option<Field<Any>>,

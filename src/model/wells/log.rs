@@ -11,7 +11,7 @@ use glam::DVec3;
 
 use super::spec::WellSpec;
 use crate::features::body::Role;
-use crate::features::well::Well;
+use crate::features::well::{EXACT, Well};
 use crate::model::owner::Owners;
 use crate::model::realisation::Realisation;
 use crate::nurbs::meet::{Meetings, meetings};
@@ -23,9 +23,10 @@ pub const ALONG: f64 = 1e-6;
 /// Intervals shorter than this (m) are kept, and flagged.
 pub const THIN: f64 = 1e-3;
 /// Places are the same within this fraction of the domain's diagonal.
-const SAME: f64 = 1e-11;
-/// Ranges in which a path is near a surface that are shorter than this (m) are touches.
-const TOUCH: f64 = 1e-3;
+const SAME: f64 = 1e-13;
+/// Ranges in which a path cannot be told from a surface that are shorter than this (m) are touches: of a path with a radius of 5 km
+/// that just touches, they are some millimetres.
+const TOUCH: f64 = 0.1;
 /// How near (m) the volumes lie that are named at a touch.
 const BESIDE: f64 = 1e-5;
 /// Places of each interval at which the evaluator is asked besides its middle: fractions that no symmetry prefers.
@@ -128,6 +129,23 @@ pub struct Logger<'a> {
     near: f64,
 }
 
+/// What is known of a piece besides its ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Doubt {
+    /// No surface comes near it between them.
+    None,
+    /// A surface is touched in it.
+    Touch,
+    /// It runs along a surface.
+    Along,
+}
+
+/// A range of measured depth in which a path is too near to a surface to tell whether it passes.
+struct Near {
+    range: [f64; 2],
+    sheet: usize,
+}
+
 /// A passage through a surface, by measured depth.
 struct Passage {
     md: f64,
@@ -167,18 +185,17 @@ impl<'a> Logger<'a> {
 
     /// What a well passes through.
     pub fn log(&self, well: &Well) -> WellLog {
-        let (passages, undecided) = self.meetings(well);
-        let along = joined(
-            undecided
-                .iter()
-                .copied()
-                .filter(|[from, to]| to - from >= TOUCH)
-                .collect(),
-        );
+        let (passages, near) = self.meetings(well);
+        let undecided = joined(near.iter().map(|one| one.range).collect());
+        let is_touch = |[from, to]: &[f64; 2]| to - from < TOUCH;
+        let along: Vec<[f64; 2]> = undecided
+            .iter()
+            .copied()
+            .filter(|range| !is_touch(range))
+            .collect();
         let (first, last) = well.range();
         // Where something may change.
         let mut places: Vec<f64> = passages.iter().map(|one| one.md).collect();
-        places.extend(along.iter().flatten());
         places.extend(undecided.iter().flatten());
         places.extend([first, last]);
         places.sort_by(f64::total_cmp);
@@ -189,14 +206,19 @@ impl<'a> Logger<'a> {
         let mut pieces = Pieces::default();
         for pair in places.windows(2) {
             let middle = f64::midpoint(pair[0], pair[1]);
-            let runs_along = along
-                .iter()
-                .any(|[from, to]| *from <= middle && middle <= *to);
-            self.pieces(well, [pair[0], pair[1]], runs_along, &mut pieces);
+            let holds = |[from, to]: &[f64; 2]| *from <= middle && middle <= *to;
+            let doubt = if along.iter().any(holds) {
+                Doubt::Along
+            } else if undecided.iter().any(holds) {
+                Doubt::Touch
+            } else {
+                Doubt::None
+            };
+            self.pieces(well, [pair[0], pair[1]], doubt, &mut pieces);
         }
         let intervals = pieces.intervals(well);
-        let crossings = self.crossings(&intervals, &passages);
-        let touches = undecided.iter().filter(|[from, to]| to - from < TOUCH);
+        let crossings = self.crossings(&intervals, &passages, &near);
+        let touches = undecided.iter().filter(|range| is_touch(range));
         WellLog {
             touches: touches
                 .filter_map(|range| self.touch(well, *range, &crossings))
@@ -209,7 +231,7 @@ impl<'a> Logger<'a> {
     }
 
     /// All passages, and the ranges of measured depth in which nothing is decided.
-    fn meetings(&self, well: &Well) -> (Vec<Passage>, Vec<[f64; 2]>) {
+    fn meetings(&self, well: &Well) -> (Vec<Passage>, Vec<Near>) {
         let curve = well.curve();
         let (low, high) = hull(curve.points());
         let (mut passages, mut undecided) = (Vec::new(), Vec::new());
@@ -226,27 +248,34 @@ impl<'a> Logger<'a> {
                 md: well.md(one.along),
                 sheet: at,
             }));
-            undecided.extend(ranges.iter().map(|range| range.map(|u| well.md(u))));
+            undecided.extend(ranges.iter().map(|range| Near {
+                range: range.map(|u| well.md(u)),
+                sheet: at,
+            }));
         }
         passages.sort_by(|a, b| a.md.total_cmp(&b.md));
-        (passages, joined(undecided))
+        (passages, undecided)
     }
 
     /// The volume at a place; of a path along a surface the youngest one beside it.
-    fn owner(&self, point: DVec3, runs_along: bool) -> Option<usize> {
-        let owner = if runs_along {
+    fn owner(&self, point: DVec3, doubt: Doubt) -> Option<usize> {
+        let beside = |distance: f64| {
             self.owners
-                .locate(point, ALONG)
+                .locate(point, distance)
                 .map(|location| location.owner)
-        } else {
-            self.owners.at(point)
+        };
+        let owner = match doubt {
+            Doubt::None => self.owners.at(point),
+            // On which side of a surface it is there is a matter of rounding.
+            Doubt::Touch => beside(10.0 * self.near),
+            Doubt::Along => beside(ALONG),
         };
         owner.map(|owner| self.realisation.rules.whole(owner))
     }
 
     /// The volumes between two places where something may change.
-    fn pieces(&self, well: &Well, [from, to]: [f64; 2], runs_along: bool, pieces: &mut Pieces) {
-        let asked: Vec<f64> = if runs_along {
+    fn pieces(&self, well: &Well, [from, to]: [f64; 2], doubt: Doubt, pieces: &mut Pieces) {
+        let asked: Vec<f64> = if doubt == Doubt::Along {
             (0..ASKED_ALONG)
                 .map(|k| (k as f64 + 0.5) / ASKED_ALONG as f64)
                 .collect()
@@ -256,13 +285,13 @@ impl<'a> Logger<'a> {
         let mut known: Option<(f64, Option<usize>)> = None;
         for part in asked {
             let md = from + (to - from) * part;
-            let owner = self.owner(well.point(md), runs_along);
+            let owner = self.owner(well.point(md), doubt);
             if let Some((last, before)) = known
                 && before != owner
             {
-                let change = self.change(well, [last, md], before, runs_along);
+                let change = self.change(well, [last, md], before, doubt);
                 pieces.push(change, before);
-                pieces.unexplained += usize::from(!runs_along);
+                pieces.unexplained += usize::from(doubt == Doubt::None);
             }
             known = Some((md, owner));
         }
@@ -277,14 +306,14 @@ impl<'a> Logger<'a> {
         well: &Well,
         [mut low, mut high]: [f64; 2],
         above: Option<usize>,
-        runs_along: bool,
+        doubt: Doubt,
     ) -> f64 {
         while high - low > self.near {
             let middle = f64::midpoint(low, high);
             if middle <= low || middle >= high {
                 break;
             }
-            if self.owner(well.point(middle), runs_along) == above {
+            if self.owner(well.point(middle), doubt) == above {
                 low = middle;
             } else {
                 high = middle;
@@ -293,14 +322,26 @@ impl<'a> Logger<'a> {
         f64::midpoint(low, high)
     }
 
-    fn crossings(&self, intervals: &[Interval], passages: &[Passage]) -> Vec<Crossing> {
+    fn crossings(
+        &self,
+        intervals: &[Interval],
+        passages: &[Passage],
+        near: &[Near],
+    ) -> Vec<Crossing> {
         let between = intervals.windows(2).map(|pair| {
             let md = pair[0].md[1];
-            let near = passages
+            // Depths follow from lengths, which are a little less exact than places.
+            let same = 10.0 * EXACT + 10.0 * self.near;
+            let through = passages
                 .iter()
-                .filter(|one| (one.md - md).abs() <= 4.0 * self.near);
-            let mut surfaces: Vec<_> = near
-                .map(|one| (self.sheets[one.sheet].volume, self.sheets[one.sheet].role))
+                .filter(|one| (one.md - md).abs() <= same)
+                .map(|one| one.sheet);
+            let beside = near
+                .iter()
+                .filter(|one| one.range[0] - same <= md && md <= one.range[1] + same);
+            let sheets = through.chain(beside.map(|one| one.sheet));
+            let mut surfaces: Vec<_> = sheets
+                .map(|sheet| (self.sheets[sheet].volume, self.sheets[sheet].role))
                 .collect();
             surfaces.dedup();
             Crossing {

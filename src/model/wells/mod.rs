@@ -5,8 +5,9 @@
 
 pub(crate) mod file;
 pub mod log;
+pub mod misfit;
 mod read;
 pub mod spec;
 mod stations;
 mod survey;
-pub mod tops;
+mod tops;

@@ -119,10 +119,10 @@ impl Checker<'_> {
         names: &mut BTreeMap<String, NodeId>,
         wells: &mut Vec<WellSpec>,
     ) {
+        let before = self.reader.found();
         let Some(file) = self.reader.table::<WellFile>(node) else {
             return;
         };
-        let before = self.reader.found();
         let id = self.well_id(file.id, node, "well", names);
         let what = id.as_ref().map_or_else(
             || "this well".to_owned(),

@@ -62,6 +62,19 @@ pub struct WellSpec {
     pub place: Place,
 }
 
+/// A horizon picked in a well.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TopSpec {
+    /// Index of the well.
+    pub well: usize,
+    /// Index of the horizon among the features.
+    pub horizon: usize,
+    /// Measured depth (m).
+    pub md: f64,
+    /// The place.
+    pub point: DVec3,
+}
+
 impl WellSpec {
     /// Depth below mean sea level (m).
     pub fn tvdss(&self, point: DVec3) -> f64 {
@@ -71,6 +84,10 @@ impl WellSpec {
     /// How much of a range of measured depth is open (m).
     pub fn open(&self, [from, to]: [f64; 2]) -> f64 {
         let common = |[top, base]: &[f64; 2]| (base.min(to) - top.max(from)).max(0.0);
-        self.completions.iter().map(common).sum()
+        // The sum of nothing is −0.
+        self.completions
+            .iter()
+            .map(common)
+            .fold(0.0, |sum, own| sum + own)
     }
 }

@@ -158,19 +158,30 @@ impl Checker<'_> {
             (Column::Y, file.y),
             (Column::Z, file.z),
         ];
-        let has = |column: Column| {
-            fields
-                .iter()
-                .any(|(own, field)| *own == column && field.is_some())
+        let has = |column: &Column| {
+            let mut given = fields.iter().filter(|(_, field)| field.is_some());
+            given.any(|(own, _)| own == column)
         };
-        let own = if [Column::X, Column::Y, Column::Z].into_iter().any(has) {
-            Form::Points
-        } else if has(Column::Dip) || has(Column::Distance) {
-            Form::Steps
-        } else {
-            Form::Angles
-        };
+        // What it is most of.
+        let count = |form: &Form| form.needs().iter().filter(|column| has(column)).count();
+        let forms = [Form::Angles, Form::Steps, Form::Points];
+        let most = forms.iter().map(count).max().unwrap_or(0);
+        let own = forms
+            .into_iter()
+            .find(|form| count(form) == most)
+            .unwrap_or(Form::Angles);
         let form = *first.get_or_insert(own);
+        if own != form && count(&form) < most {
+            self.reader.wrong(
+                node,
+                format!("{name} is of another kind than the first one"),
+                format!(
+                    "all stations of a survey are of one kind; write it as {}",
+                    form.example()
+                ),
+            );
+            return None;
+        }
         let mut values = Vec::with_capacity(4);
         let mut is_whole = true;
         for (column, field) in fields {

@@ -1,56 +1,12 @@
-//! Tops picked in wells, and how far the horizons are from them.
+//! Tops picked in wells, as a file has them.
 
-use glam::{DVec3, Vec3Swizzles};
-
-use super::spec::WellSpec;
+use super::spec::{TopSpec, WellSpec};
 use crate::data::tops;
-use crate::features::body::Body;
 use crate::model::checker::Checker;
 use crate::model::read::Field;
-use crate::model::realisation::Realisation;
 use crate::model::spec::Feature;
 use crate::model::suggest;
 use crate::model::tree::quoted;
-
-/// A horizon picked in a well.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TopSpec {
-    /// Index of the well.
-    pub well: usize,
-    /// Index of the horizon among the features.
-    pub horizon: usize,
-    /// Measured depth (m).
-    pub md: f64,
-    /// The place.
-    pub point: DVec3,
-}
-
-/// How far a horizon is from a top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Misfit {
-    /// The top.
-    pub top: TopSpec,
-    /// How far the horizon lies above the top (m); none if it takes no part, or is no height over the plan.
-    pub above: Option<f64>,
-}
-
-impl TopSpec {
-    /// How far the horizon of a realisation is from it.
-    pub fn misfit(&self, realisation: &Realisation) -> Misfit {
-        let own = realisation
-            .instances
-            .iter()
-            .find(|instance| instance.feature == self.horizon);
-        let height = own.and_then(|instance| match &instance.body {
-            Body::Side(side) => side.height(self.point.xy()),
-            _ => None,
-        });
-        Misfit {
-            top: self.clone(),
-            above: height.map(|height| height - self.point.z),
-        }
-    }
-}
 
 impl Checker<'_> {
     /// The tops of a file: each of a known well and horizon, and on that well.
