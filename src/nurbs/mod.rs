@@ -8,7 +8,7 @@
 //! - Every operation leaves its operand as it was and returns a new one.
 //! - A parameter outside a domain is moved to the domain's nearest end before evaluation.
 //! - [`interpolate`] passes curves through points; [`enclosure`] answers whether a closed shell holds a point.
-//! - [`pierce`] finds where lines parallel to an axis pass through a surface.
+//! - [`pierce`] finds where lines parallel to an axis pass through a surface, [`meet`] where any curve does.
 //! - [`quadrature`] has the nodes that lengths, areas and volumes are summed over.
 
 mod approximate;
@@ -29,6 +29,7 @@ pub mod interpolate;
 mod knots;
 mod lattice;
 mod length;
+pub mod meet;
 pub mod pierce;
 pub mod quadrature;
 mod refine;
@@ -45,5 +46,6 @@ pub use function::Function;
 pub(crate) use function::{PROBES, spans_probed};
 pub use knots::{Basis, ElevateError, KnotError, KnotVector, MAX_DEGREE};
 pub use lattice::{Lattice, LatticeError};
+pub use length::ArcLength;
 pub use refine::RefineError;
 pub use surface::{Surface, SurfaceError};

@@ -119,10 +119,20 @@ impl<'a> Target<'a> {
         [&self.spans[0][at / columns], &self.spans[1][at % columns]]
     }
 
-    fn patch(&self, at: usize) -> Cow<'_, Patch> {
+    /// A patch by its number.
+    pub(super) fn patch(&self, at: usize) -> Cow<'_, Patch> {
         match self.kept.get(at) {
             Some(patch) => Cow::Borrowed(patch),
             None => Cow::Owned(self.made(at)),
+        }
+    }
+
+    /// Where a patch lies in the surface's parameters.
+    pub(super) fn region(&self, at: usize) -> Region {
+        let [u, v] = self.spans(at);
+        Region {
+            u: u.range,
+            v: v.range,
         }
     }
 
@@ -171,10 +181,7 @@ impl<'a> Target<'a> {
     /// Adds where a line passes through a patch. `false` if the line is not clear of something nearer than a distance.
     pub fn pass(&self, at: usize, line: Line, near: f64, found: &mut Vec<Passage>) -> bool {
         let patch = self.patch(at);
-        let region = Region {
-            u: self.spans(at)[0].range,
-            v: self.spans(at)[1].range,
-        };
+        let region = self.region(at);
         let mut stack: SmallVec<[View; 4]> = SmallVec::new();
         stack.push(View::new(&patch, line));
         let mut halvings = 0;

@@ -1,8 +1,15 @@
 //! Ruled surfaces: straight lines between two curves (PT97 §8.4).
 
 use super::{Curve, KnotVector, Surface, SurfaceError};
+use glam::DVec3;
 
 impl Surface {
+    /// The surface of straight lines between two sides of a quadrilateral, given by its corners at (0, 0), (0, 1), (1, 0) and (1, 1).
+    pub fn bilinear([a, b, c, d]: [DVec3; 4]) -> Result<Self, SurfaceError> {
+        let knots = KnotVector::uniform(1, 2)?;
+        Self::new(knots.clone(), knots, vec![a, b, c, d])
+    }
+
     /// The surface of straight lines from `a(v)` at u = 0 to `b(v)` at u = 1. The lower degree is elevated and both knot
     /// vectors are refined to their union; `b` is run over the domain of `a`. Where both have the same knots, the edges'
     /// control points are those of the curves.
