@@ -1,5 +1,7 @@
 //! Heights from files of other programs: bytes become nodes of a grid, or scattered points, as the file has them.
 //!
+//! Surveys of wells are read by [`survey`], picks in them by [`tops`].
+//!
 //! One format, one file. What a file says is read tolerantly (any blanks, line ends and comments; exponents as Fortran writes
 //! them), and nothing is guessed: a number that is none, a count that does not fit and a cut-off end are errors with their line.
 //! Nothing here knows of models: which way is up, which unit and which origin, the file may say and others decide.
@@ -12,7 +14,9 @@ mod format;
 mod heights;
 mod irap;
 mod limits;
+pub mod survey;
 mod text;
+pub mod tops;
 mod tsurf;
 mod xyz;
 mod zmap;
