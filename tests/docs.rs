@@ -99,6 +99,9 @@ fn kind_of(value: &Value) -> String {
         },
         Value::Array(names) if names.iter().any(|name| name == "array") => match &names[0] {
             Value::String(name) if name == "number" => "number or list".to_owned(),
+            Value::String(name) if name == "array" && names[1] == "object" => {
+                "list or table".to_owned()
+            }
             _ => "list".to_owned(),
         },
         Value::Array(names) if names.iter().any(|name| name == "number") => {
@@ -120,7 +123,9 @@ fn list_of(value: &Value) -> String {
         "quantity" => format!("{many} quantities"),
         "number" => format!("{many} numbers"),
         "text" => format!("{many} names"),
-        "list of numbers" | "three numbers" | "list of lists" => "list of lists".to_owned(),
+        "list of numbers" | "two numbers" | "three numbers" | "list of lists" => {
+            "list of lists".to_owned()
+        }
         _ => "list of tables".to_owned(),
     }
 }
@@ -190,6 +195,10 @@ fn keys_of(schema: &Value, place: &str) -> Keys {
         "a section" => defined("Section"),
         "a junction" => defined("Joins"),
         "a surface" => defined("Surface"),
+        "a well" => defined("Well"),
+        "a lateral" => defined("Lateral"),
+        "a station" => defined("Station"),
+        "a file of stations" => defined("SurveyFile"),
         "a feature" => common(),
         kind => of_kind(schema, kind, &common()).unwrap_or_else(|| panic!("no place {kind}")),
     }

@@ -57,6 +57,7 @@ impl Built {
             realisation: &self.realisation,
             plan: &self.plan,
             assembly: &self.assembly,
+            wells: &[],
             level: proof::Level::Full,
             with_bounds: false,
         })

@@ -11,14 +11,16 @@ use super::{interrupt, print, summary};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
 use crate::export::report::{Parts, Report};
-use crate::export::{ExportError, brep, file, step, table};
+use crate::export::wells::entries::{WellEntry, Wells};
+use crate::export::{ExportError, brep, file, step, table, wells};
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
+use crate::model::wells::log::Logger;
 use crate::model::{Model, remarks};
 
 /// Build watertight solids and write them as STEP, with a report and the proof that they are right.
 ///
-/// Writes to DIR: MODEL.step (and what --formats adds), volumes.csv, report.json and run.json. The same
+/// Writes to DIR: MODEL.step (and what --formats adds), volumes.csv, wells.csv where there are wells, report.json and run.json. The same
 /// model, seed and version give the same bytes; run.json holds what differs from run to run.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -186,11 +188,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let cancel = interrupt::cancel()?;
     let progress = Progress::new(args.engine.quiet || args.json);
     let built = assemble(loaded, &args.engine, &cancel, &progress)?;
+    let wells = wells(&built)?;
     let report = Report::new(Parts {
         model: &built.model,
         realisation: &built.subject.realisation,
         plan: &built.subject.plan,
         assembly: &built.assembly,
+        wells: &wells,
         level: args.engine.level(),
         with_bounds: args.bounds,
     });
@@ -214,6 +218,21 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     } else {
         print::out(summary::text(&report, &folder, &written).trim_end())
     }
+}
+
+/// What the model's wells pass through.
+fn wells(built: &Built) -> Result<Vec<WellEntry>, Failure> {
+    if built.model.wells.is_empty() {
+        return Ok(Vec::new());
+    }
+    let realisation = &built.subject.realisation;
+    let logger = Logger::new(realisation, &built.subject.owners)
+        .map_err(|error| Failure::Wrong(error.to_string()))?;
+    let wells = Wells {
+        model: &built.model,
+        realisation,
+    };
+    Ok(wells.all(&logger))
 }
 
 /// Plans, assembles and proves.
@@ -425,7 +444,13 @@ impl Output<'_> {
         let json = report
             .to_json()
             .map_err(|error| Failure::Surroundings(error.to_string()))?;
-        for (name, text) in [("volumes.csv", csv), ("report.json", json)] {
+        let mut texts = vec![("volumes.csv", csv), ("report.json", json)];
+        if !report.wells.is_empty() {
+            let csv = wells::table::csv(&report.wells)
+                .map_err(|error| Failure::Surroundings(error.to_string()))?;
+            texts.push(("wells.csv", csv));
+        }
+        for (name, text) in texts {
             std::fs::write(staging.join(name), text)
                 .map_err(|error| Failure::file("write to", self.folder, &error))?;
             names.push(name.to_owned());

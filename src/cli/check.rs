@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::print;
 use crate::export::data::DataEntry;
+use crate::export::wells::entries::{tops, tops_in_words};
 use crate::model::rules::{Rules, Verdict, VolumeRules};
 use crate::model::{HorizonSurface, Quantity, meshing, remarks};
 
@@ -222,6 +223,9 @@ fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
     for (name, file) in model.files() {
         let _ = writeln!(out, "\ndata of {name}: {}", file.described());
     }
+    for words in tops_in_words(&tops(model, &loaded.realisation)) {
+        let _ = writeln!(out, "\ntops: {words}");
+    }
     for rejection in &loaded.realisation.rejections {
         let _ = writeln!(
             out,
@@ -276,6 +280,7 @@ fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Valu
         "decisions": loaded.realisation.decisions, "notes": notes,
         "remarks": remarks,
         "data": data,
+        "tops": tops(&loaded.model, &loaded.realisation),
         "meshing": meshing::advice(&loaded.realisation) })
 }
 

@@ -14,6 +14,7 @@ mod files;
 mod interrupt;
 mod load;
 mod locate;
+mod log;
 mod new;
 mod picture;
 mod print;
@@ -25,6 +26,9 @@ mod section;
 mod summary;
 #[cfg(feature = "occt")]
 mod surfaces;
+mod traces;
+#[cfg(feature = "occt")]
+mod tubes;
 #[cfg(feature = "occt")]
 mod view;
 
@@ -61,6 +65,7 @@ enum Command {
     #[cfg(feature = "occt")]
     Surfaces(surfaces::Args),
     Locate(locate::Args),
+    Log(log::Args),
     Section(section::Args),
     #[cfg(feature = "occt")]
     View(view::Args),
@@ -105,6 +110,7 @@ impl Command {
             #[cfg(feature = "occt")]
             Self::Surfaces(args) => surfaces::run(&args),
             Self::Locate(args) => locate::run(&args),
+            Self::Log(args) => log::run(&args),
             Self::Section(args) => section::run(&args),
             #[cfg(feature = "occt")]
             Self::View(args) => view::run(&args),

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::args::{ModelArgs, finite, numbers};
 use super::failure::Failure;
 use super::load::{self, Loaded};
-use super::picture;
+use super::{picture, traces};
 use crate::export::picture::section::{
     Extent, Kind, LabelRaster, SectionFigure, fitting_exaggeration,
 };
@@ -39,6 +39,9 @@ pub(super) struct Args {
     /// A map at this elevation (m).
     #[arg(long, value_name = "Z", value_parser = finite, conflicts_with = "from", allow_negative_numbers = true)]
     map: Option<f64>,
+    /// Show the model's wells within this distance of the section, or of the map's elevation (m), projected onto it.
+    #[arg(long, value_name = "METRES", value_parser = finite, allow_negative_numbers = true)]
+    wells: Option<f64>,
     /// How many times elevations are stretched; chosen to fit if not given.
     #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true)]
     exaggeration: Option<f64>,
@@ -69,7 +72,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, false)?;
     let owners = loaded.owners()?;
     let figure = match args.map {
-        Some(elevation) => map(&loaded, &owners, elevation)?,
+        Some(elevation) => map(args, &loaded, &owners, elevation)?,
         None => section(args, &loaded, &owners)?,
     };
     let bytes = if svg {
@@ -125,9 +128,13 @@ fn section(args: &Args, loaded: &Loaded, owners: &Owners) -> Result<SectionFigur
         )));
     }
     let (volumes, legend) = picture::key(loaded);
+    let wells = args.wells.map_or_else(Vec::new, |within| {
+        traces::on_section(&loaded.model, &line, extent, within)
+    });
     Ok(SectionFigure {
+        wells,
         title: loaded.model.name.clone(),
-        subtitle: format!("seed {}", loaded.model.seed),
+        subtitle: format!("seed {}{}", loaded.model.seed, said(args)),
         kind: Kind::Section {
             line,
             ends: ["A".to_owned(), "A′".to_owned()],
@@ -142,7 +149,12 @@ fn section(args: &Args, loaded: &Loaded, owners: &Owners) -> Result<SectionFigur
     })
 }
 
-fn map(loaded: &Loaded, owners: &Owners, elevation: f64) -> Result<SectionFigure, Failure> {
+fn map(
+    args: &Args,
+    loaded: &Loaded,
+    owners: &Owners,
+    elevation: f64,
+) -> Result<SectionFigure, Failure> {
     let domain = &loaded.model.domain;
     if !(domain.z[0]..=domain.z[1]).contains(&elevation) {
         return Err(Failure::Wrong(format!(
@@ -171,15 +183,29 @@ fn map(loaded: &Loaded, owners: &Owners, elevation: f64) -> Result<SectionFigure
         )));
     }
     let (volumes, legend) = picture::key(loaded);
+    let wells = args.wells.map_or_else(Vec::new, |within| {
+        traces::on_map(&loaded.model, elevation, extent, within)
+    });
     Ok(SectionFigure {
+        wells,
         title: loaded.model.name.clone(),
-        subtitle: format!("map at {elevation} m, seed {}", loaded.model.seed),
+        subtitle: format!(
+            "map at {elevation} m, seed {}{}",
+            loaded.model.seed,
+            said(args)
+        ),
         kind: Kind::Map { traces: Vec::new() },
         extent,
         raster,
         volumes,
         legend,
     })
+}
+
+/// Which wells are shown, in words.
+fn said(args: &Args) -> String {
+    args.wells
+        .map_or_else(String::new, |within| format!(", wells within {within} m"))
 }
 
 /// Owners at the middles of the cells of a raster whose rows run down from the top.

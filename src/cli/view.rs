@@ -9,10 +9,10 @@ use super::build::{self, EngineArgs};
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
-use super::{interrupt, picture};
+use super::{interrupt, picture, tubes};
 use crate::export::mesh;
-use crate::export::picture::cap;
 use crate::export::picture::view::{Box3, Camera, Cut, Part, Projection, Scene};
+use crate::export::picture::{Rgb, Swatch, Volume, cap};
 use crate::model::rules::BACKGROUND;
 
 /// Draw the model in three dimensions as PNG: its solids, or a block coloured by the point evaluator.
@@ -94,7 +94,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let loaded = load::realise(&args.model, false)?;
     let owners = loaded.owners()?;
-    let (volumes, legend) = picture::key(&loaded);
+    let (mut volumes, mut legend) = picture::key(&loaded);
     let (low, high) = (owners.extent().low(), owners.extent().high());
     let camera = camera(args);
     let (parts, loaded) = match args.style {
@@ -115,15 +115,32 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             u32::try_from(owner).ok()
         }
     };
-    let parts = match args.style {
+    let mut parts = match args.style {
         Style::Block => cap::caps(owners.extent(), &shown),
         Style::Solids | Style::Sheets => parts,
     };
+    let domain = Box3 { low, high };
+    if !loaded.model.wells.is_empty() {
+        parts.extend(tubes::tubes(
+            &loaded.model,
+            domain,
+            args.exaggeration,
+            volumes.len(),
+        ));
+        volumes.push(Volume {
+            name: "wells".to_owned(),
+            swatch: legend.len(),
+        });
+        legend.push(Swatch {
+            name: "wells".to_owned(),
+            color: Rgb(20, 20, 20),
+        });
+    }
     let cut = args.cut.map(|at| corner(at, &camera, low, high));
     let scene = Scene {
         title: loaded.model.name.clone(),
         subtitle: format!("seed {}", loaded.model.seed),
-        domain: Box3 { low, high },
+        domain,
         parts,
         volumes,
         legend,

@@ -17,6 +17,7 @@ pub mod step;
 pub mod table;
 #[cfg(feature = "occt")]
 mod text;
+pub mod wells;
 
 /// Why a file could not be written.
 #[cfg(feature = "occt")]

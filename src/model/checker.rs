@@ -1,5 +1,6 @@
 //! What checks have at hand: the tree with its defects, notes, and where the model lies in the world.
 
+pub(crate) mod files;
 pub(crate) mod world;
 
 use std::cell::RefCell;

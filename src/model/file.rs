@@ -16,6 +16,7 @@ use super::read::{Any, Field};
 use super::tables::object;
 use super::values::property::{Properties, any_property};
 use super::values::surface::HorizonSurface;
+use super::wells::file::WellFile;
 
 /// A surface-based geological model. Lengths in metres, x east, y north, z up; azimuths clockwise from north.
 #[derive(Deserialize, JsonSchema)]
@@ -42,6 +43,11 @@ pub(crate) struct ModelFile {
     #[schemars(schema_with = "kinds::schema")]
     #[serde(default)]
     pub(crate) feature: Option<Field<Any>>,
+    /// Wells: curves through the stations of their surveys, of which it is told what they pass through. They change nothing.
+    #[schemars(with = "Option<Vec<WellFile>>")]
+    pub(crate) well: Option<Field<Any>>,
+    /// A table of tops picked in wells: a file with the columns well, horizon and md. It is told how far the horizons are from them.
+    pub(crate) tops: Option<Field<String>>,
 }
 
 /// The modelled block. Before any feature, all of it is the volume `background`.

@@ -48,6 +48,7 @@ mod toml_text;
 mod tree;
 mod values;
 mod warp;
+pub mod wells;
 
 pub use defects::{Defect, Defects};
 pub use domain::Domain;

@@ -12,6 +12,7 @@ use super::values::conform::ConformSpec;
 use super::values::property::PropertySpec;
 use super::values::selector::Selector;
 use super::values::surface::{FileSurface, HorizonSurface};
+use super::wells::spec::{TopSpec, WellSpec};
 
 /// A checked model.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +31,10 @@ pub struct Model {
     pub facies: Vec<Facies>,
     /// The features from oldest to youngest, in file order.
     pub features: Vec<Feature>,
+    /// The wells, each followed by its laterals.
+    pub wells: Vec<WellSpec>,
+    /// Horizons picked in them.
+    pub tops: Vec<TopSpec>,
     /// What is worth saying about the file although it is right.
     pub notes: Vec<Note>,
 }

@@ -81,6 +81,8 @@ pub const TEMPLATES: &[Template] = templates! {
     "fig03-degrees": "a surface from a control net of degree 1, 2 or 3, with weights",
     "fig07-join": "a surface from three control nets of different degrees that join",
 
+    "fig02-wells" with ["a-3.dev", "a-4.csv"]: "five wells and a lateral from one site, through the coastal model",
+
     "rock": "properties drawn for each volume, permeabilities along its layers",
 
     "rules" / "removes": "`removes` as a list: by id, kind, level and facies",

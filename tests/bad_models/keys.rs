@@ -12,7 +12,7 @@ use toml::{Table, Value};
 use super::{BODY, NODULE, SHOREFACE, TOML};
 
 /// Models that together have every key.
-const GOOD: [(&str, &str); 18] = [
+const GOOD: [(&str, &str); 19] = [
     ("good.toml", TOML),
     ("body.toml", BODY),
     ("nodule.toml", NODULE),
@@ -29,6 +29,7 @@ const GOOD: [(&str, &str); 18] = [
     ("reference.toml", include_str!("reference.toml")),
     ("section.toml", include_str!("section.toml")),
     ("trend.toml", include_str!("trend.toml")),
+    ("well.toml", include_str!("well.toml")),
     ("rock.toml", include_str!("../../models/rock/rock.toml")),
     (
         "bounds.toml",
@@ -378,7 +379,10 @@ fn every_key_of_the_schema_is_in_a_good_model_and_so_in_broken_ones() {
     known.remove("$schema");
     known.remove("$ref");
     // What goes with a file of heights is broken beside such a file.
-    for key in super::data::KEYS_OF_FILES {
+    for key in super::data::KEYS_OF_FILES
+        .iter()
+        .chain(super::wells::KEYS_OF_FILES)
+    {
         assert!(known.remove(*key), "{key}");
     }
     let mut tried = BTreeSet::new();

@@ -27,6 +27,7 @@ mod references;
 mod sections;
 mod shorefaces;
 mod trends;
+mod wells;
 
 use clinothem::model::{Defects, Format, Model, Source};
 
@@ -104,6 +105,7 @@ fn the_good_files_are_good() {
         ("c.toml", SHOREFACE, Format::Toml),
         ("d.toml", BODY, Format::Toml),
         ("e.toml", include_str!("kinds.toml"), Format::Toml),
+        ("f.toml", include_str!("well.toml"), Format::Toml),
     ] {
         let source = Source::from_text(name, text, format);
         Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"));

@@ -74,6 +74,8 @@ pub struct SectionFigure {
     pub subtitle: String,
     /// A section or a map.
     pub kind: Kind,
+    /// Paths to be drawn over it, in the extent's coordinates; names that are not empty are written at their ends.
+    pub wells: Vec<Trace>,
     /// What the raster covers.
     pub extent: Extent,
     /// The owner of each cell.
@@ -118,6 +120,9 @@ impl SectionFigure {
             }
         }
         check_swatches(&self.volumes, &self.legend)?;
+        for well in &self.wells {
+            check_line(&format!("the path of {}", well.ends[0]), &well.line)?;
+        }
         match &self.kind {
             Kind::Section {
                 line,

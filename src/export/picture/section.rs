@@ -102,6 +102,9 @@ impl SectionFigure {
             extent: self.extent,
         };
         self.fill(&mut canvas, &plot);
+        for well in &self.wells {
+            draw_trace(&mut canvas, &plot, well);
+        }
         end_labels(&mut canvas, &plot, line, ends)?;
         bends(&mut canvas, &plot, line);
         let below = axes(
@@ -149,7 +152,7 @@ impl SectionFigure {
             extent: self.extent,
         };
         self.fill(&mut canvas, &plot);
-        for trace in traces {
+        for trace in traces.iter().chain(&self.wells) {
             draw_trace(&mut canvas, &plot, trace);
         }
         let below = axes(&mut canvas, &plot, ["easting (m)", "northing (m)"])?;

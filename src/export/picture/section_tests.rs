@@ -38,6 +38,7 @@ fn figure(kind: Kind) -> SectionFigure {
         color,
     };
     SectionFigure {
+        wells: Vec::new(),
         title: "Test <section>".to_owned(),
         subtitle: "made up".to_owned(),
         kind,

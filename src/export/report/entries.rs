@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::assembly::proof::Check;
 use crate::export::data::DataEntry;
+use crate::export::wells::entries::{TopEntry, WellEntry};
 
 /// A build's report.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -30,6 +31,12 @@ pub struct Report {
     /// The files of heights that the model names, and how near the surfaces are that were fitted to them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub data: Vec<DataEntry>,
+    /// What the wells pass through, each followed by its laterals.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wells: Vec<WellEntry>,
+    /// Tops picked in wells, and how far the horizons are from them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tops: Vec<TopEntry>,
     /// Draws that made no surface and were made again.
     pub rejected_draws: Vec<RejectedEntry>,
     /// What was decided before the kernel saw it: what takes no part, and coincidences.

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
 use crate::export::data::DataEntry;
+use crate::export::wells::entries::tops;
 use crate::model::{Facies, labels, remarks};
 
 pub use entries::*;
@@ -27,6 +28,7 @@ impl Report {
             realisation,
             plan,
             assembly,
+            wells,
             level,
             with_bounds,
         } = parts;
@@ -85,6 +87,8 @@ impl Report {
                 .files()
                 .map(|(of, file)| DataEntry::of(of, file))
                 .collect(),
+            wells: wells.to_vec(),
+            tops: tops(model, realisation),
             rejected_draws: realisation
                 .rejections
                 .iter()

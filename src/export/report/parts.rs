@@ -2,6 +2,7 @@
 
 use crate::assembly::Assembly;
 use crate::assembly::proof::Level;
+use crate::export::wells::entries::WellEntry;
 use crate::model::Model;
 use crate::model::plan::AssemblyPlan;
 use crate::model::realisation::Realisation;
@@ -17,6 +18,8 @@ pub struct Parts<'a> {
     pub plan: &'a AssemblyPlan,
     /// The assembly.
     pub assembly: &'a Assembly,
+    /// What its wells pass through.
+    pub wells: &'a [WellEntry],
     /// How thorough its proof was.
     pub level: Level,
     /// Whether to tell between what the permeability of many volumes as a whole lies.

@@ -102,6 +102,11 @@ impl Checker<'_> {
         let facies = self.all_facies(file.facies, root);
         let domain = self.domain(file.domain, root, &facies);
         let features = self.features(file.feature, domain.as_ref(), &facies);
+        let wells = self.wells(file.well, domain.as_ref());
+        let tops = match (&wells, &features) {
+            (Some(wells), Some(features)) => self.tops(file.tops, wells, features),
+            _ => None,
+        };
         if let (Some(domain), Some(features)) = (&domain, &features) {
             self.note_unused_facies(&facies, domain, features);
         }
@@ -113,6 +118,8 @@ impl Checker<'_> {
             domain: domain?,
             facies: facies.finished()?,
             features: features?,
+            wells: wells?,
+            tops: tops?,
             notes: self.sorted_notes(),
         })
     }

@@ -15,6 +15,7 @@ use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::tree::{NodeId, quoted};
+use crate::model::values::honours::HonoursFile;
 use crate::model::values::surface::{HorizonSurface, horizon_surface};
 
 /// A horizon: it makes a new unit above it, up to the next horizon or the domain's top.
@@ -24,6 +25,8 @@ pub struct HorizonSpec {
     pub surface: HorizonSurface,
     /// Whether its unit takes from the open unit and its children alone; otherwise it is erosive and takes from everything.
     pub onlapping: bool,
+    /// In which reach about its tops it is changed so that it passes through them (m); not at all if absent.
+    pub honours: Option<f64>,
 }
 
 /// A horizon: a surface through the whole domain, with a new unit above it, up to the next horizon or the domain's top.
@@ -37,6 +40,9 @@ pub(crate) struct HorizonFile {
     #[schemars(schema_with = "relation")]
     #[serde(default)]
     pub(crate) relation: Option<Field<String>>,
+    /// Makes it pass through the model's `tops` of it, which changes it within a reach of each: { reach = 500 }. As it is drawn if left out.
+    #[schemars(with = "Option<HonoursFile>")]
+    pub(crate) honours_tops: Option<Field<Any>>,
 }
 
 fn relation(_: &mut SchemaGenerator) -> Schema {
@@ -81,9 +87,14 @@ impl Kind for HorizonSpec {
             None => Some(false),
             Some(word) => word.and_then(|(node, word)| keys.relation(node, &word)),
         };
+        let what = keys.what("honours_tops");
+        let honours = keys
+            .checker
+            .optional_honours(file.honours_tops, &what, surface.as_ref());
         Some(Self {
             surface: surface?,
             onlapping: onlapping?,
+            honours,
         })
     }
 
@@ -121,6 +132,7 @@ impl Kind for HorizonSpec {
         Some(Base {
             surface: &self.surface,
             is_onlapping: self.onlapping,
+            honours: self.honours,
         })
     }
 }

@@ -251,6 +251,8 @@ pub(crate) struct Base<'a> {
     pub(crate) surface: &'a HorizonSurface,
     /// Whether its unit takes from the open unit and what lies in it alone; otherwise from everything.
     pub(crate) is_onlapping: bool,
+    /// In which reach about its tops it is changed (m), if it passes through them.
+    pub(crate) honours: Option<f64>,
 }
 
 /// What bounds a unit.

@@ -7,8 +7,11 @@ pub(super) mod volumes;
 
 use std::collections::BTreeMap;
 
+use glam::{DVec3, Vec3Swizzles};
+
 use super::{RealisationError, draw_whole};
 use crate::features::extent::Extent;
+use crate::features::honouring;
 use crate::features::horizon::Horizon;
 use crate::model::draws::Key;
 use crate::model::kinds::made::Bound;
@@ -155,6 +158,7 @@ impl<'a> Listing<'a> {
                 let ((horizon, own), reasons) = draw_whole(self.model, &feature.id, "1", draw)?;
                 let rejected = reasons.into_iter().map(|reason| (Some(index), reason));
                 self.rejected.extend(rejected);
+                let horizon = self.honouring(index, horizon, base.honours)?;
                 drawn.insert(index, horizon);
                 parameters.push(own);
             }
@@ -167,6 +171,42 @@ impl<'a> Listing<'a> {
             self.horizons.insert(index, (horizon, own));
         }
         Ok(())
+    }
+
+    /// A horizon as it is drawn, or through the tops that were picked of it.
+    fn honouring(
+        &mut self,
+        index: usize,
+        horizon: Horizon,
+        reach: Option<f64>,
+    ) -> Result<Horizon, RealisationError> {
+        let Some(reach) = reach else {
+            return Ok(horizon);
+        };
+        let tops = self.model.tops.iter().filter(|top| top.horizon == index);
+        let points: Vec<DVec3> = tops.map(|top| top.point).collect();
+        let (low, high) = self.model.domain.corners();
+        let id = &self.model.features[index].id;
+        if points.is_empty() {
+            self.decisions.push(format!(
+                "{id} is to honour its tops, and the model has none of it"
+            ));
+            return Ok(horizon);
+        }
+        let honouring = honouring::honouring(&horizon, &points, reach, [low.xy(), high.xy()]);
+        let honouring = honouring.map_err(|error| RealisationError::Impossible {
+            volume: id.clone(),
+            reason: format!("it cannot honour its tops: {error}"),
+        })?;
+        let most = points
+            .iter()
+            .map(|p| (p.z - horizon.height(p.x, p.y)).abs())
+            .fold(0.0, f64::max);
+        self.decisions.push(format!(
+            "{id} passes through {} tops, of which it was {most:.2} m off at most, and is changed within {reach} m of them",
+            points.len()
+        ));
+        Ok(honouring)
     }
 
     /// Draws the domain's own base or top.

@@ -1,12 +1,7 @@
 //! Surfaces from files of heights: found, read, brought to the model's coordinates, and fitted.
 
-use std::fmt::Write as _;
-use std::io::Read as _;
-use std::path::{Path, PathBuf};
-
 use glam::{DVec3, Vec3Swizzles};
 use serde::Deserialize;
-use sha2::{Digest, Sha256};
 
 use super::HorizonSurface;
 use super::from_file::{FileSurface, plan};
@@ -15,16 +10,13 @@ use crate::data::{self, Format, Heights, Origin, Positive, Reading};
 use crate::features::coverage::Coverage;
 use crate::features::fitted::{Fitted, Goal};
 use crate::features::horizon::HorizonError;
+use crate::model::checker::files::sha256;
 use crate::model::checker::world::{beyond, size};
 use crate::model::checker::{Checker, Extent};
 use crate::model::read::{Any, Field};
 use crate::model::suggest;
 use crate::model::tree::{NodeId, Value, quoted};
-
-/// Larger files are refused.
-const LARGEST: u64 = 1 << 30;
-/// What units are in metres: the foot is 0.3048 m exactly, that of old American surveys 1200/3937 m.
-const UNITS: [(&str, f64); 3] = [("m", 1.0), ("ft", 0.3048), ("us-ft", 1200.0 / 3937.0)];
+use crate::model::values::unit::UNITS;
 
 /// The keys of a surface from a file, besides `tolerance`.
 #[derive(Deserialize)]
@@ -175,7 +167,7 @@ impl Checker<'_> {
         extent: Extent,
     ) -> Option<HorizonSurface> {
         let (node, what) = (asked.node, asked.what);
-        let bytes = self.bytes(&asked)?;
+        let bytes = self.bytes_of(asked.node, asked.what, &asked.file)?;
         let heights = match data::read(&bytes, reading) {
             Ok(heights) => heights,
             Err(error) => {
@@ -226,7 +218,7 @@ impl Checker<'_> {
         let coverage = Coverage::of(&places, plan);
         self.note_coverage(&asked, &coverage, plan[1].distance(plan[0]));
         Some(HorizonSurface::File(Box::new(FileSurface {
-            sha256: hexadecimal(&Sha256::digest(&bytes)),
+            sha256: sha256(&bytes),
             file: asked.file,
             format: heights.format.name(),
             heights: count,
@@ -260,22 +252,6 @@ impl Checker<'_> {
                 None
             }
         }
-    }
-
-    /// A unit in metres.
-    fn unit(&self, field: Option<Field<String>>) -> f64 {
-        let Some((node, word)) = field.and_then(Field::good) else {
-            return 1.0;
-        };
-        let known = UNITS.iter().find(|(name, _)| *name == word);
-        if known.is_none() {
-            self.reader.wrong(
-                node,
-                format!("there is no unit {}", quoted(&word)),
-                "write \"m\", \"ft\" (0.3048 m) or \"us-ft\" (1200/3937 m)",
-            );
-        }
-        known.map_or(1.0, |(_, metres)| *metres)
     }
 
     fn columns(&self, node: NodeId, what: &str) -> Option<[String; 3]> {
@@ -366,49 +342,6 @@ impl Checker<'_> {
             format!("the {key} of {what} is {number}; it must be above 0"),
             "write how far the surface may be from the heights, in metres",
         );
-        None
-    }
-
-    /// What a file holds.
-    fn bytes(&self, asked: &Asked<'_>) -> Option<Vec<u8>> {
-        let path = self.folder.join(&asked.file);
-        let read = || -> std::io::Result<Result<Vec<u8>, String>> {
-            let metadata = std::fs::metadata(&path)?;
-            if !metadata.is_file() {
-                return Ok(Err("this is no file".to_owned()));
-            }
-            if metadata.len() > LARGEST {
-                let size = metadata.len();
-                return Ok(Err(format!(
-                    "the file has {size} bytes, more than the {LARGEST} that may be"
-                )));
-            }
-            let mut bytes = Vec::new();
-            std::fs::File::open(&path)?
-                .take(LARGEST)
-                .read_to_end(&mut bytes)?;
-            Ok(Ok(bytes))
-        };
-        let problem = match read() {
-            Ok(Ok(bytes)) => return Some(bytes),
-            Ok(Err(problem)) => problem,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                "there is no such file".to_owned()
-            }
-            Err(error) => format!("the file cannot be read: {error}"),
-        };
-        let remedy = if Path::new(&asked.file).is_absolute() {
-            "check the path".to_owned()
-        } else {
-            let folder = absolute(&self.folder);
-            format!(
-                "its path begins at the model file's folder, {}",
-                folder.display()
-            )
-        };
-        let (what, file) = (asked.what, quoted(&asked.file));
-        self.reader
-            .wrong(asked.node, format!("{what}: {file}: {problem}"), remedy);
         None
     }
 
@@ -640,23 +573,4 @@ fn upside_down(frame: &Frame, heights: &Heights, [base, top]: [f64; 2]) -> Optio
     } else {
         None
     }
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, byte| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
-}
-
-/// A folder as people look for it.
-fn absolute(folder: &Path) -> PathBuf {
-    // The working directory has no name of its own.
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned())
 }
