@@ -9,12 +9,14 @@
 #[path = "assembled/checked.rs"]
 mod checked;
 
+use std::fmt::Write as _;
+
 use clinothem::features::survey::{Reading, Station, by_angles};
 use clinothem::features::well::{Path, Well};
 use clinothem::model::owner::Owners;
 use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
-use clinothem::model::wells::log::{Logger, WellLog};
+use clinothem::model::wells::log::{Interval, Logger, WellLog};
 use clinothem::model::{Format, Model, Source};
 use clinothem::nurbs::interpolate::Parametrization;
 use glam::DVec3;
@@ -237,7 +239,7 @@ fn compare(made: &Made, random: &mut Random, name: &str) -> usize {
             vec![top.with_z(high.z), top.with_z(low.z)]
         }
         kind if kind < 0.4 => vec![random.within(low, high), random.within(low, high)],
-        kind => (0..3 + (kind * 4.0) as usize)
+        kind => (0..if kind < 0.7 { 3 } else { 6 })
             .map(|_| random.within(low, high))
             .collect(),
     };
@@ -330,7 +332,7 @@ fn the_log_of_the_models_wells_is_as_long_as_they_are_in_the_domain() {
         .intervals
         .iter()
         .filter(|one| one.volume.is_some())
-        .map(|one| one.length())
+        .map(Interval::length)
         .sum();
     // From the domain's top, 25 m below the datum, to its base or the end.
     assert_eq!(log.intervals[0].volume, None);
@@ -339,7 +341,7 @@ fn the_log_of_the_models_wells_is_as_long_as_they_are_in_the_domain() {
         .intervals
         .iter()
         .filter(|one| one.volume.is_none())
-        .map(|one| one.length())
+        .map(Interval::length)
         .sum();
     assert!((inside + outside - 200.0).abs() < 1e-9);
     assert!((log.intervals[1].md[1] - 65.0).abs() < 1e-7);
@@ -356,9 +358,10 @@ fn with_tops(honours: &str) -> Model {
     std::fs::write(folder.path().join("tops.csv"), TOPS).unwrap();
     let mut text = format!("tops = \"tops.csv\"\n{LAYERS}{honours}\n");
     for (id, x, y) in [("A", 200, 300), ("B", 260, 300), ("C", 800, 700)] {
-        text.push_str(&format!(
+        let _ = write!(
+            text,
             "[[well]]\nid = \"{id}\"\nhead = [{x}, {y}]\nsurvey = [{{ md = 0, inc_deg = 0, azi_deg = 0 }}, {{ md = 90, inc_deg = 0, azi_deg = 0 }}]\n"
-        ));
+        );
     }
     let source = Source::from_text("tops.toml", text, Format::Toml).in_folder(folder.path());
     checked::checked(&source)
@@ -428,7 +431,7 @@ fn the_wells_of_the_figure_leave_one_site_and_end_in_the_rocks_that_they_were_dr
             .intervals
             .iter()
             .filter(|one| one.volume.is_some())
-            .map(|one| one.length())
+            .map(Interval::length)
             .sum();
         assert_eq!(log.unexplained, 0);
         assert!(
