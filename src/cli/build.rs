@@ -14,6 +14,18 @@ use crate::export::wells::entries::{WellEntry, Wells};
 use crate::model::remarks;
 use crate::model::wells::log::Logger;
 
+/// Build watertight solids and write them as STEP, with a report and the proof that they are right.
+///
+/// Writes to DIR: MODEL.step (and what --formats adds), volumes.csv, wells.csv where there are wells, report.json and run.json. The same
+/// model, seed and version give the same bytes; run.json holds what differs from run to run.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  clinothem build channel-belt.toml
+  clinothem build channel-belt.toml --seed 12 -o belt-12
+  clinothem build channel-belt.toml --without channel-3 --formats step,step-shared,brep
+  clinothem build channel-belt.toml --formats none,xlsx,csv --least-area 10
+  clinothem build channel-belt.toml --formats step,glb,stl,obj,ply,ts --chord 0.5
+  clinothem build channel-belt.toml --set feature.channel.width=30 --json")]
 pub(super) struct Args {
     #[command(flatten)]
     pub(super) model: ModelArgs,
