@@ -101,6 +101,9 @@ pub(super) fn triangulate_within(
     Ok(run.mesh())
 }
 
+/// A side between points of edges: these, its face, its two nodes there, and whether it lies within the face.
+type Shared = ((usize, usize), usize, [usize; 2], bool);
+
 struct Run<'a> {
     tables: &'a Tables,
     fineness: &'a Fineness,
@@ -295,8 +298,8 @@ impl<'a> Run<'a> {
     /// Asks for a point on each side within a face that has the same two ends as a side of another face. Returns those faces.
     fn divide_common_sides(&mut self) -> Vec<usize> {
         let numbering = self.numbering();
-        // Only sides between points of edges can be common: face, its two nodes, and whether it lies within the face.
-        let mut sides: Vec<((usize, usize), usize, [usize; 2], bool)> = Vec::new();
+        // Only sides between points of edges can be common.
+        let mut sides: Vec<Shared> = Vec::new();
         for (face, piece) in self.pieces.iter().enumerate() {
             let Some(piece) = piece else { continue };
             let points = numbering.points(face, piece);
