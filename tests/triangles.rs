@@ -237,7 +237,7 @@ fn triangles_of_committed_models_close_and_converge_s_to_z() {
     committed('s', 'z');
 }
 
-/// Random models of a kind; CLINOTHEM_RANDOM says how many, CLINOTHEM_FIRST from which seed on.
+/// Random models of a kind; `CLINOTHEM_RANDOM` says how many, `CLINOTHEM_FIRST` from which seed on.
 fn random(kind: Kind) {
     let number = |name: &str, otherwise: u64| {
         std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
