@@ -39,7 +39,7 @@ pub(super) struct Args {
     /// Where to write: a file for step alone, MODEL-surfaces.step if not given; else a folder, MODEL-surfaces if not given.
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
-    /// Files to write: step; triangles as glb, obj, stl, ply, ts (GOCAD TSurf); grids as irap (IRAP classic), zmap (ZMAP+), cps3 (CPS-3).
+    /// Files to write: step; triangles as glb, obj, stl, ply, ts (for GOCAD); grids as irap (IRAP classic), zmap (ZMAP+), cps3 (CPS-3).
     #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
     formats: Vec<Format>,
     /// Triangles and grids of whole surfaces, not only of what parts two volumes.

@@ -147,7 +147,7 @@ impl Raster<'_> {
         for triangle in &face.triangles {
             let corners = triangle.map(|corner| face.corners[corner]);
             let places = corners.map(|corner| points[corner.point]);
-            let plan = places.map(|place| place.xy());
+            let plan = places.map(DVec3::xy);
             let area = (plan[1] - plan[0]).perp_dot(plan[2] - plan[0]);
             if area == 0.0 {
                 continue;

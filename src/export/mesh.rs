@@ -148,13 +148,12 @@ pub(super) fn collect(
         let face = &mesh.faces[*face];
         let first = number(own.corners.len() + face.corners.len())? - number(face.corners.len())?;
         for corner in &face.corners {
-            let point = match points[corner.point] {
-                Some(point) => point,
-                None => {
-                    let next = number(own.positions.len())?;
-                    own.positions.push(mesh.points[corner.point]);
-                    *points[corner.point].insert(next)
-                }
+            let point = if let Some(point) = points[corner.point] {
+                point
+            } else {
+                let next = number(own.positions.len())?;
+                own.positions.push(mesh.points[corner.point]);
+                *points[corner.point].insert(next)
             };
             let normal = if *reversed {
                 -corner.normal

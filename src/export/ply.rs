@@ -1,5 +1,7 @@
 //! PLY, binary, with coordinates of double precision: one part a file.
 
+use glam::DVec3;
+
 use super::part::{Part, Parts};
 
 /// The file of a part.
@@ -17,12 +19,7 @@ pub fn bytes(parts: &Parts, part: &Part) -> Vec<u8> {
     );
     let mut out = header.into_bytes();
     out.reserve(24 * part.mesh.positions.len() + 13 * part.mesh.triangles.len());
-    for number in part
-        .mesh
-        .positions
-        .iter()
-        .flat_map(|point| point.to_array())
-    {
+    for number in part.mesh.positions.iter().flat_map(DVec3::to_array) {
         out.extend(number.to_le_bytes());
     }
     for triangle in part.triangles() {

@@ -56,12 +56,12 @@ impl Sheets {
                 continue;
             };
             let used = triangles.face(face);
-            let role = match roles.get(&(body.volume, of)) {
-                Some(role) => *role,
-                None => {
-                    let role = role(realisation, body.volume, &triangles, used, near)?;
-                    *roles.entry((body.volume, of)).or_insert(role)
-                }
+            let key = (body.volume, of);
+            let role = if let Some(role) = roles.get(&key) {
+                *role
+            } else {
+                let role = role(realisation, body.volume, &triangles, used, near)?;
+                *roles.entry(key).or_insert(role)
             };
             let name = &realisation.volumes[body.volume].name;
             let name = match role {

@@ -4,7 +4,7 @@
 //! these are halved, and the faces at them made anew. Where the triangles of two faces meet side to side away from their edges (the
 //! base and the top of something thinner than the tolerance), the side gets a point in each of them, so that a body is never flat.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -100,6 +100,9 @@ pub(super) fn triangulate_within(
     run.faces()?;
     Ok(run.mesh())
 }
+
+/// A side between points of edges: these, its face, its two nodes there, and whether it lies within the face.
+type Shared = ((usize, usize), usize, [usize; 2], bool);
 
 struct Run<'a> {
     tables: &'a Tables,
@@ -295,8 +298,8 @@ impl<'a> Run<'a> {
     /// Asks for a point on each side within a face that has the same two ends as a side of another face. Returns those faces.
     fn divide_common_sides(&mut self) -> Vec<usize> {
         let numbering = self.numbering();
-        // Only sides between points of edges can be common: face, its two nodes, and whether it lies within the face.
-        let mut sides: Vec<((usize, usize), usize, [usize; 2], bool)> = Vec::new();
+        // Only sides between points of edges can be common.
+        let mut sides: Vec<Shared> = Vec::new();
         for (face, piece) in self.pieces.iter().enumerate() {
             let Some(piece) = piece else { continue };
             let points = numbering.points(face, piece);
@@ -365,18 +368,43 @@ impl<'a> Run<'a> {
                 normal: normal.unwrap_or(DVec3::Z),
             });
             let triangles = piece.triangles.iter().map(|triangle| triangle.corners);
-            // At a pole and at a seam's end two corners may be one point: then there is nothing between the other two sides.
-            let has_area = |corners: &[usize; 3]| {
-                let [a, b, c] = corners.map(|corner| numbers[corner]);
-                a != b && b != c && c != a
-            };
             faces.push(FaceMesh {
                 corners: corners.collect(),
-                triangles: triangles.filter(has_area).collect(),
+                triangles: without_folds(triangles, &numbers),
             });
         }
         Mesh { points, faces }
     }
+}
+
+/// Triangles without those that are nothing. At a pole and at a seam's ends two corners may be one point: then there is nothing between
+/// the other two sides. And around a pole, which has many places in the parameters, two triangles of the same three points may lie
+/// back to back: without both of them their neighbours meet.
+fn without_folds(
+    triangles: impl Iterator<Item = [usize; 3]>,
+    numbers: &[usize],
+) -> Vec<[usize; 3]> {
+    let mut kept: Vec<Option<[usize; 3]>> = Vec::new();
+    // By points, beginning with the least: where the triangles are that run that way.
+    let mut known: HashMap<[usize; 3], Vec<usize>> = HashMap::new();
+    for corners in triangles {
+        let [a, b, c] = corners.map(|corner| numbers[corner]);
+        if a == b || b == c || c == a {
+            continue;
+        }
+        let [a, b, c] = match a.min(b).min(c) {
+            least if least == a => [a, b, c],
+            least if least == b => [b, c, a],
+            _ => [c, a, b],
+        };
+        if let Some(other) = known.get_mut(&[a, c, b]).and_then(Vec::pop) {
+            kept[other] = None;
+            continue;
+        }
+        known.entry([a, b, c]).or_default().push(kept.len());
+        kept.push(Some(corners));
+    }
+    kept.into_iter().flatten().collect()
 }
 
 /// The number of the first point of each edge and of each face.
