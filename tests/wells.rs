@@ -258,19 +258,21 @@ fn compare(made: &Made, random: &mut Random, name: &str) -> usize {
     assert_eq!(log.intervals[0].md[0], first);
     assert_eq!(log.intervals[log.intervals.len() - 1].md[1], last);
     let boundaries: Vec<f64> = log.intervals[1..].iter().map(|one| one.md[0]).collect();
+    // Millions of metres from the origin a number is exact to 1e-9; a well that grazes a surface stretches that.
+    let same = if name.starts_with("far/") { 1e-5 } else { 1e-6 };
     // What sampling finds is there.
     for change in sampled(made, &well, 300) {
         let nearest = boundaries
             .iter()
             .map(|md| (md - change).abs())
             .fold(f64::INFINITY, f64::min);
-        assert!(nearest < 1e-6, "{name}: {points:?} at {change}: {nearest}");
+        assert!(nearest < same, "{name}: {points:?} at {change}: {nearest}");
     }
     // What is there is true, right beside its ends, too.
     for one in &log.intervals {
         let [from, to] = one.md;
-        if to - from > 4e-6 {
-            for md in [from + 1e-6, f64::midpoint(from, to), to - 1e-6] {
+        if to - from > 4.0 * same {
+            for md in [from + same, f64::midpoint(from, to), to - same] {
                 assert_eq!(
                     made.owner(well.point(md)),
                     one.volume,
