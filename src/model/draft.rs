@@ -30,7 +30,6 @@ pub(crate) struct FeatureFile {
     /// What it is.
     pub(crate) kind: Field<String>,
     /// Id of a feature before it in the list, all of whose keys it has that it does not have itself (but `name` and `enabled`): another one of the same definition, with draws of its own.
-    #[expect(dead_code, reason = "it is followed before tables are read")]
     pub(crate) like: Option<Field<String>>,
     /// What it is called where people read, in any alphabet; its id if left out.
     pub(crate) name: Option<Field<String>>,

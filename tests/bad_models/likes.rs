@@ -37,7 +37,7 @@ const LIKE_EDITS: &[Edit] = &[
     ("like = \"old\"", "like = ▸\"odl\"", &["it is like \"odl\", which is not a feature", "did you mean \"old\"?"]),
     ("like = \"old\"", "like = ▸\"young\"", &["this feature is like itself", "one before it in the list"]),
     ("like = \"old\"", "like = ▸5", &["like`: expected text, found the number 5"]),
-    ("like = \"old\"", "like = \"old\"\nkind = ▸\"lobe\"", &["has a `kind` of its own", "leave `kind` out"]),
+    ("like = \"old\"", "like = \"old\"\nkind = ▸\"channel\"", &["has a `kind` of its own", "leave `kind` out"]),
     ("like = \"old\"", "like = \"old\"\n▸widht = 5", &["unknown key `widht`", "width"]),
     ("depth = 6", "depth = ▸-6", &["the depth of feature \"young\" is -6"]),
     ("id = \"old\"\n", "id = \"old\"\nlike = ▸\"young\"\n", &["the feature \"young\" comes later in the list"]),

@@ -97,6 +97,8 @@ impl Checker<'_> {
                 .kind_meant(*at, kind, &kinds::names())
                 .and_then(kinds::named)
                 .map(|kind| kind.nature),
+            // What it is like is told of where that cannot be followed.
+            Field::Missing if file.like.is_some() => None,
             Field::Missing => {
                 self.reader.wrong(
                     node,
