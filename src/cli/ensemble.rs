@@ -154,7 +154,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .collect();
     let progress = Progress::new(args.quiet || args.json, members.len(), due.len());
     let ended = workers::make(&members, &due, &job, &folder, &cancel, &|end| {
-        progress.tell(end)
+        progress.tell(end);
     });
     progress.done();
     let ended = ended.map_err(|error| match error {

@@ -197,8 +197,7 @@ fn defect(source: &Source, values: &[(&str, &str)]) -> Option<Defect> {
         source.set(format!("{key}={value}"));
     }
     let defects = Model::check(&source).err()?;
-    let first = defects.iter().next().cloned();
-    first
+    defects.iter().next().cloned()
 }
 
 fn check_names(path: &Path, names: &[String]) -> Result<(), DesignError> {

@@ -91,7 +91,7 @@ pub fn ranks(values: &[f64]) -> Vec<f64> {
 pub fn rank_correlation(pairs: &[(f64, f64)]) -> Option<f64> {
     let (a, b): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
     let (a, b) = (ranks(&a), ranks(&b));
-    let mean = (pairs.len() as f64 + 1.0) / 2.0;
+    let mean = f64::midpoint(pairs.len() as f64, 1.0);
     let sum = |x: &[f64], y: &[f64]| -> f64 {
         let products = x.iter().zip(y).map(|(x, y)| (x - mean) * (y - mean));
         products.sum()

@@ -49,7 +49,7 @@ fn escaped(text: &str) -> String {
 /// A number as it is read: four digits at least, thousands apart.
 fn shown(value: f64) -> String {
     let size = value.abs();
-    if size >= 1000.0 && size < 1e15 {
+    if (1000.0..1e15).contains(&size) {
         let digits = format!("{size:.0}");
         let mut out = String::new();
         for (at, digit) in digits.chars().enumerate() {
