@@ -1,6 +1,6 @@
 //! Latin hypercubes: of n realisations each parameter is once in every n-th of its distribution.
 //!
-//! After McKay, Beckman & Conover (1979), Technometrics 21. Realisation i has, of each parameter, the stratum π(i) of n, where the
+//! After `McKay`, Beckman & Conover (1979), Technometrics 21. Realisation i has, of each parameter, the stratum π(i) of n, where the
 //! permutation π is keyed by the hypercube's first seed, the feature, the instance and the parameter. So draws keep their identities:
 //! adding, removing or reordering features changes no other stratum, and each realisation can be made by itself.
 //! π is a Feistel network over the next power of four, walked until it falls below n (Black & Rogaway, 2002).
