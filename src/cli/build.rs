@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::triangles::{self, TriangleArgs};
-use super::{interrupt, print, summary};
+use super::{interrupt, print, responses, summary};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::assembly::{self, Assembly, AssemblyError, Cancel, Subject, proof, worker};
 use crate::export::mesh::Triangulation;
@@ -56,6 +56,10 @@ pub(super) struct Args {
     /// What two net solids share at least to count as connected (m²).
     #[arg(long, value_name = "M2", value_parser = finite, default_value_t = LEAST_AREA, allow_negative_numbers = true)]
     least_area: f64,
+    /// Write measures as files of a number each, responses/NAME.txt: pore_volume_m3, net_to_gross, facies.sand.volume_m3, whatever
+    /// the table of an ensemble has as a column; a name that there is not tells those that there are.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    responses: Vec<String>,
     #[command(flatten)]
     triangles: TriangleArgs,
     #[command(flatten)]
@@ -453,6 +457,8 @@ impl Output<'_> {
     ) -> Result<Vec<String>, Failure> {
         let (model, realisation) = (&built.model, &built.subject.realisation);
         let protocol = self.args.step_schema.into();
+        // First of all: a name that there is not costs no files.
+        let responses = responses::of(report, &self.args.responses)?;
         let mut names = Vec::new();
         let formats = self.formats(built);
         let has_shared = [Format::StepShared, Format::Brep]
@@ -504,6 +510,12 @@ impl Output<'_> {
             std::fs::write(staging.join(&name), bytes)
                 .map_err(|error| Failure::file("write to", self.folder, &error))?;
             names.push(name);
+        }
+        for response in responses {
+            response
+                .write(staging)
+                .map_err(|error| Failure::file("write to", self.folder, &error))?;
+            names.push(response.file);
         }
         Ok(names)
     }

@@ -25,6 +25,8 @@ mod picture;
 mod print;
 mod progress;
 #[cfg(feature = "occt")]
+mod responses;
+#[cfg(feature = "occt")]
 mod scenarios;
 mod schema;
 mod section;

@@ -15,7 +15,7 @@ use super::member::Member;
 use super::statistics::{FEW, Spread, rank_correlation};
 use super::workers::End;
 
-pub use columns::{Column, Role, Table};
+pub use columns::{Column, Role, Table, measures};
 pub use page::page;
 pub use plots::{Plot, PlotError, plots};
 pub use tables::{correlations, quantiles, realisations, unmade};
