@@ -63,19 +63,19 @@ find_rust() {
         die "no Rust toolchain: install 1.89 or newer as https://rustup.rs says, then run this again"
 }
 
-# Makes the Python environment of the cross-checks, .venv in the root, and names its Python in `python`.
+# make_python FOLDER REQUIREMENTS: makes a Python environment, both below the root, and names its Python in `python`.
 make_python() {
-    local requirements=$root/tests/crosscheck/requirements.txt
-    python=$root/.venv/bin/python
+    local folder=$root/$1 requirements=$root/$2
+    python=$folder/bin/python
     if ! "$python" -c 'import pip' 2>/dev/null; then
-        rm -rf "$root/.venv"
-        python3 -m venv "$root/.venv"
+        rm -rf "$folder"
+        python3 -m venv "$folder"
     fi
     # pip is asked only when what we want has changed.
-    if ! cmp -s "$requirements" "$root/.venv/requirements.txt"; then
-        say "installing ${requirements#"$root"/} into .venv"
+    if ! cmp -s "$requirements" "$folder/requirements.txt"; then
+        say "installing ${requirements#"$root"/} into ${folder#"$root"/}"
         "$python" -m pip install --quiet --disable-pip-version-check -r "$requirements"
-        cp "$requirements" "$root/.venv/requirements.txt"
+        cp "$requirements" "$folder/requirements.txt"
     fi
 }
 

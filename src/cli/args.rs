@@ -20,6 +20,13 @@ pub(super) struct ModelArgs {
     /// Override a value of the model file: feature.channel.width=30, domain.z=[-80,0]; repeatable.
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
+    /// Take values from a JSON file of parameters, as ERT writes it: {"feature.channel.width": 30}, {"NAME": {"value": 30}} and groups of
+    /// them; names are keys as those of --set, which wins.
+    #[arg(long, value_name = "FILE")]
+    pub(super) parameters: Option<PathBuf>,
+    /// Which keys the parameters are: a TOML file of NAME = "feature.channel.width", or a list of keys; other parameters are left alone.
+    #[arg(long, value_name = "FILE", requires = "parameters")]
+    pub(super) parameter_names: Option<PathBuf>,
     /// Leave out a feature (channel) or a volume (channel-3; a clinothem, shore/lower-2; a belt of it, shore/lower-2/distal), with its
     /// children; repeatable. What lies in only one place needs no path: lower-2. What it would hold goes to what is older.
     #[arg(long, value_name = "ID", num_args = 1..)]

@@ -251,6 +251,12 @@ fn members(args: &Args, model: &Model) -> Result<Vec<Member>, Failure> {
             "--stratum is of one realisation; of an ensemble write --latin-hypercube".to_owned(),
         ));
     }
+    if args.model.parameters.is_some() {
+        return Err(Failure::Wrong(
+            "--parameters is of one realisation; of an ensemble write --design, or --set"
+                .to_owned(),
+        ));
+    }
     let plain = match (&args.design, args.seeds, args.n) {
         (Some(path), ..) => designed(args, path, model.seed)?,
         (None, seeds, n) => {
@@ -365,6 +371,8 @@ fn check_scenarios(args: &Args) -> Result<(), Failure> {
             model: args.model.model.clone(),
             seed: args.model.seed,
             stratum: None,
+            parameters: None,
+            parameter_names: None,
             set: [&args.model.set[..], &scenario.changes.set].concat(),
             without: [&args.model.without[..], &scenario.changes.without].concat(),
             max_level: scenario.changes.max_level.or(args.model.max_level),

@@ -1,6 +1,7 @@
 //! Loading: from a model file to a realisation, with every defect told.
 
-use std::io::IsTerminal;
+use std::io::{ErrorKind, IsTerminal};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::args::ModelArgs;
@@ -8,7 +9,7 @@ use super::failure::Failure;
 use crate::model::owner::Owners;
 use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
-use crate::model::{Model, ReadError, Source};
+use crate::model::{Model, Parameters, ParametersError, ReadError, Source};
 
 /// A model with its draws made.
 pub(super) struct Loaded {
@@ -39,6 +40,9 @@ pub(super) fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), 
         ReadError::Io { source, .. } => Failure::Surroundings(format!("{error}: {source}")),
         _ => Failure::Wrong(error.to_string()),
     })?;
+    if let Some(path) = &args.parameters {
+        source.set_parameters(parameters(path, args.parameter_names.as_deref())?);
+    }
     for assignment in &args.set {
         source.set(assignment.clone());
     }
@@ -55,6 +59,15 @@ pub(super) fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), 
         .found_in(&model)
         .map_err(|error| Failure::Wrong(error.to_string()))?;
     Ok((model, selection))
+}
+
+fn parameters(path: &Path, names: Option<&Path>) -> Result<Parameters, Failure> {
+    Parameters::read(path, names).map_err(|error| match error {
+        ParametersError::Unreadable { ref source, .. } if source.kind() != ErrorKind::NotFound => {
+            Failure::Surroundings(error.to_string())
+        }
+        _ => Failure::Wrong(error.to_string()),
+    })
 }
 
 /// The same, with the draws made and the surfaces built.

@@ -29,6 +29,8 @@ mod picture;
 mod print;
 mod progress;
 #[cfg(feature = "occt")]
+mod responses;
+#[cfg(feature = "occt")]
 mod scenarios;
 mod schema;
 mod section;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::engine::Built;
 use super::failure::Failure;
 use super::triangles::{self, TriangleArgs};
-use super::{interrupt, print};
+use super::{interrupt, print, responses};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::export::mesh::Triangulation;
 use crate::export::report::Report;
@@ -30,6 +30,10 @@ pub(super) struct OutputArgs {
     /// The application protocol that STEP files declare.
     #[arg(long, value_enum, default_value_t)]
     step_schema: Schema,
+    /// Write measures as files of a number each, responses/NAME.txt: pore_volume_m3, net_to_gross, facies.sand.volume_m3, whatever
+    /// the table of an ensemble has as a column; a name that there is not tells those that there are.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    responses: Vec<String>,
     #[command(flatten)]
     triangles: TriangleArgs,
 }
@@ -171,6 +175,8 @@ impl<'a> Outputs<'a> {
     ) -> Result<Vec<String>, Failure> {
         let (model, realisation) = (&built.model, &built.subject.realisation);
         let protocol = self.args.step_schema.into();
+        // First of all: a name that there is not costs no files.
+        let responses = responses::of(report, &self.args.responses)?;
         let mut names = Vec::new();
         let formats = self.formats(built);
         let has_shared = [Format::StepShared, Format::Brep]
@@ -222,6 +228,12 @@ impl<'a> Outputs<'a> {
             std::fs::write(staging.join(&name), bytes)
                 .map_err(|error| Failure::file("write to", &self.folder, &error))?;
             names.push(name);
+        }
+        for response in responses {
+            response
+                .write(staging)
+                .map_err(|error| Failure::file("write to", &self.folder, &error))?;
+            names.push(response.file);
         }
         Ok(names)
     }

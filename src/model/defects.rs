@@ -138,6 +138,11 @@ impl Defect {
         self
     }
 
+    /// Lets it stand somewhere else.
+    pub(crate) fn move_to(&mut self, span: Span) {
+        self.span = span;
+    }
+
     /// What is wrong.
     pub fn message(&self) -> &str {
         &self.message

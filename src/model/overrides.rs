@@ -23,6 +23,38 @@ pub(crate) fn apply(
     };
     let path = path_of(tree, text, &source[..equals])?;
     let value = value_of(tree, text, source, equals, path.len())?;
+    put_at(tree, root, &path, value, whole)
+}
+
+/// Puts a value at a key that stands elsewhere, at `span`: what is wrong with the key is told there.
+pub(crate) fn apply_key(
+    tree: &mut Tree,
+    root: NodeId,
+    key: &str,
+    span: Span,
+    value: NodeId,
+) -> Result<(), Vec<Defect>> {
+    let at_the_key = |mut defects: Vec<Defect>| {
+        for defect in &mut defects {
+            defect.move_to(span);
+        }
+        defects
+    };
+    let mut path = path_of(tree, span.text, key).map_err(at_the_key)?;
+    for step in &mut path {
+        step.key_span = span;
+    }
+    put_at(tree, root, &path, value, span)
+}
+
+/// Puts a value at the end of a path; `whole` is where it was said.
+fn put_at(
+    tree: &mut Tree,
+    root: NodeId,
+    path: &[Entry],
+    value: NodeId,
+    whole: Span,
+) -> Result<(), Vec<Defect>> {
     let mut table = root;
     let mut features = None;
     for (depth, step) in path.iter().enumerate() {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::parameters::Parameters;
 use super::place::Place;
 
 /// Larger files are refused: a model file is written by hand or by a small script.
@@ -27,6 +28,7 @@ pub struct Source {
     pub(crate) text: String,
     pub(crate) format: Format,
     pub(crate) assignments: Vec<String>,
+    pub(crate) parameters: Option<Parameters>,
     /// Where the paths of files that the model names begin.
     pub(crate) folder: PathBuf,
 }
@@ -121,6 +123,7 @@ impl Source {
             text,
             format,
             assignments: Vec::new(),
+            parameters: None,
             folder: PathBuf::new(),
         }
     }
@@ -139,6 +142,11 @@ impl Source {
     /// word may be left out). It is applied, and checked, by [`Model::check`](super::Model::check); later overrides win.
     pub fn set(&mut self, assignment: impl Into<String>) {
         self.assignments.push(assignment.into());
+    }
+
+    /// Takes values from a file of parameters; overrides win.
+    pub fn set_parameters(&mut self, parameters: Parameters) {
+        self.parameters = Some(parameters);
     }
 
     /// The name of the file.

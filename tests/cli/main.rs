@@ -15,6 +15,7 @@ mod grids;
 mod interrupted;
 mod names;
 mod notes;
+mod parameters;
 mod rock;
 mod sandbox;
 mod tables;

@@ -223,8 +223,8 @@ fn unnumbered(parameter: &str) -> String {
     words.join(".")
 }
 
-/// What came of it: over the domain, by facies, by feature.
-fn measures(report: &Value) -> Numbers {
+/// What came of a realisation, from its report: over the domain, by facies, by feature.
+pub fn measures(report: &Value) -> Vec<(String, f64)> {
     let mut numbers = Numbers::new();
     for (key, value) in report.as_object().into_iter().flatten() {
         if !LEFT_OUT.contains(&key.as_str()) {

@@ -50,6 +50,12 @@ impl Model {
             }
             return defects.finish(texts, None);
         }
+        if let Some(parameters) = &source.parameters {
+            let text = source.assignments.len() + 1;
+            for defect in parameters.apply(&mut tree, parsed.root, text) {
+                defects.add(defect);
+            }
+        }
         for (number, assignment) in source.assignments.iter().enumerate() {
             if let Err(list) = overrides::apply(&mut tree, parsed.root, number + 1, assignment) {
                 for defect in list {
@@ -79,7 +85,16 @@ fn texts_of(source: &Source) -> Arc<Vec<Text>> {
         .assignments
         .iter()
         .map(|assignment| Text::new("--set".to_owned(), assignment.clone()));
-    Arc::new(std::iter::once(file).chain(arguments).collect())
+    let parameters = source.parameters.iter();
+    let parameters = parameters
+        .flat_map(|parameters| parameters.texts())
+        .map(|(name, text)| Text::new(name.to_owned(), text.to_owned()));
+    Arc::new(
+        std::iter::once(file)
+            .chain(arguments)
+            .chain(parameters)
+            .collect(),
+    )
 }
 
 impl Checker<'_> {

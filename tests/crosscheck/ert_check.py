@@ -1,0 +1,165 @@
+"""Runs the configurations of integrations/ert in ERT and compares each realisation with a build of the same values.
+
+script/crosscheck-ert calls it in a folder with a copy of them, of the models, and of the plugin. What a realisation should be is read
+from where ERT has it from (the design matrix), or from its own file of parameters, and goes to the program as `--set`.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+from ert.storage import open_storage
+
+WORK = Path(sys.argv[1])
+CONFIGURATIONS = WORK / "integrations" / "ert"
+REALISATIONS = range(8)
+
+# What design/names.toml says, written down once more.
+KEYS = {
+    "CH_WIDTH": ["feature.old-channel.width", "feature.young-channel.width"],
+    "CH_DEPTH": ["feature.young-channel.depth"],
+    "CH_FILL": ["feature.young-channel.facies"],
+    "SAND_PORO": ["facies.sand.porosity"],
+    "OWC": [],
+}
+
+wrong: list[str] = []
+
+
+def expect(is_so: bool, what: str) -> None:
+    if not is_so:
+        wrong.append(what)
+        print(f"  WRONG: {what}")
+
+
+def ert(configuration: Path, environment: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
+    command = ["ert", "ensemble_experiment", "--disable-monitoring", configuration.name]
+    return subprocess.run(
+        command,
+        cwd=configuration.parent,
+        env=os.environ | (environment or {}),
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=3600,
+    )
+
+
+def build(model: Path, settings: list[tuple[str, object]], seed: int, folder: Path) -> dict:
+    """The report of a build, in whose folder volumes.csv is."""
+    command = ["clinothem", "build", str(model), "--formats", "none", "--quiet", "--seed", str(seed), "-o", str(folder)]
+    command += [f"--set={key}={value}" for key, value in settings]
+    subprocess.run(command, check=True)
+    return json.loads((folder / "report.json").read_text(encoding="utf-8"))
+
+
+def responses(folder: Path, name: str, realisations: list[int]) -> dict[int, float]:
+    with open_storage(folder / "out" / "storage") as storage:
+        ensemble = next(iter(storage.ensembles))
+        made = ensemble.get_realization_list_with_responses()
+        expect(made == realisations, f"ERT has responses of {made}, not of {realisations}")
+        frame = ensemble.load_responses("gen_data", tuple(realisations))
+    return {
+        row["realization"]: row["values"]
+        for row in frame.to_dicts()
+        if row["response_key"] == name
+    }
+
+
+def compare(folder: Path, model: str, settings: dict[int, list[tuple[str, object]]]) -> None:
+    """Each realisation that was made has the bytes of a build, and ERT has the numbers of its report."""
+    made = sorted(settings)
+    pores = responses(folder, "PORE_VOLUME", made)
+    shares = responses(folder, "NET_TO_GROSS", made)
+    distinct = set()
+    for realisation in made:
+        runpath = folder / "out" / f"realization-{realisation}" / "iter-0"
+        fresh = WORK / "fresh" / folder.name / str(realisation)
+        report = build(WORK / "models" / model, settings[realisation], realisation, fresh)
+        found = (runpath / "clinothem" / "volumes.csv").read_bytes()
+        distinct.add(found)
+        expect(found == (fresh / "volumes.csv").read_bytes(), f"realisation {realisation}: volumes.csv differs")
+        for measure, values in ((report["totals"]["pore_volume_m3"], pores), (report["net_to_gross"], shares)):
+            # ERT keeps responses in single precision.
+            expect(np.float32(measure) == np.float32(values[realisation]), f"realisation {realisation}: {measure} is {values[realisation]} in ERT")
+    expect(len(distinct) == len(made), f"only {len(distinct)} of {len(made)} realisations differ from each other")
+    print(f"  {len(made)} realisations: same bytes as builds, same numbers in ERT")
+
+
+def case_study() -> None:
+    print("case-study: priors, a step from a file")
+    folder = CONFIGURATIONS / "case-study"
+    ran = ert(folder / "case-study.ert")
+    expect(ran.returncode == 0, f"ert ended with {ran.returncode}: {ran.stderr[-2000:]}")
+    settings = {}
+    for realisation in REALISATIONS:
+        file = folder / "out" / f"realization-{realisation}" / "iter-0" / "parameters.json"
+        parameters = json.loads(file.read_text(encoding="utf-8"))
+        expect(len(parameters) == 9, f"{file} has {len(parameters)} parameters")
+        values = {key: one["value"] for key, one in parameters.items()}
+        values["feature.channel.count"] = round(values["feature.channel.count"])
+        settings[realisation] = list(values.items())
+    compare(folder, "case-study/case-study.toml", settings)
+
+
+def design_rows() -> dict[int, dict[str, object]]:
+    sheet = openpyxl.load_workbook(CONFIGURATIONS / "design" / "design.xlsx")["DesignSheet"]
+    head, *rows = sheet.iter_rows(values_only=True)
+    return {row[0]: dict(zip(head[1:], row[1:], strict=True)) for row in rows}
+
+
+def design(folder: Path, environment: dict[str, str] | None = None) -> None:
+    ran = ert(folder / "design.ert", environment)
+    expect(ran.returncode == 0, f"ert ended with {ran.returncode}: {ran.stderr[-2000:]}")
+    settings = {}
+    for realisation, row in design_rows().items():
+        runpath = folder / "out" / f"realization-{realisation}" / "iter-0"
+        if row["SAND_PORO"] > 1.0:
+            told = (runpath / "CLINOTHEM.stderr.0").read_text(encoding="utf-8")
+            expect("parameters.json" in told and "1.26" in told, f"realisation {realisation} does not say why: {told}")
+            expect((runpath / "ERROR").exists(), f"realisation {realisation} did not fail")
+            expect(not (runpath / "clinothem").exists(), f"realisation {realisation} left results")
+            expect(not (runpath / "grid").exists(), f"realisation {realisation} went on")
+            print(f"  realisation {realisation} failed, as it must")
+            continue
+        expect(any((runpath / "grid").glob("*.GRDECL")) or any((runpath / "grid").glob("*.grdecl")), f"realisation {realisation} has no grid")
+        settings[realisation] = [(key, value) for name, value in row.items() for key in KEYS[name]]
+    expect(sorted(set(REALISATIONS) - set(settings)) == [5], "one realisation was to fail")
+    compare(folder, "quickstart/quickstart.toml", settings)
+
+
+def with_plugin() -> None:
+    print("design: a matrix, steps from the plugin")
+    folder = CONFIGURATIONS / "design-with-plugin"
+    shutil.copytree(CONFIGURATIONS / "design", folder, ignore=shutil.ignore_patterns("out", "logs"))
+    configuration = folder / "design.ert"
+    lines = configuration.read_text(encoding="utf-8").splitlines(keepends=True)
+    configuration.write_text("".join(line for line in lines if not line.startswith("INSTALL_JOB")), encoding="utf-8")
+    environment = {"PYTHONPATH": str(WORK / "plugin")}
+    design(folder, environment)
+
+    print("a model with a defect, steps from the plugin")
+    broken = folder / "broken.toml"
+    model = (WORK / "models" / "quickstart" / "quickstart.toml").read_text(encoding="utf-8")
+    broken.write_text(model.replace("width = 70", "widht = 70"), encoding="utf-8")
+    text = configuration.read_text(encoding="utf-8")
+    shutil.rmtree(folder / "out")
+    configuration.write_text(text.replace("../../../models/quickstart/quickstart.toml", "broken.toml"), encoding="utf-8")
+    ran = ert(configuration, environment)
+    told = ran.stdout + ran.stderr
+    expect(ran.returncode != 0 and "widht" in told, f"ert ended with {ran.returncode}: {told[-2000:]}")
+    expect(not (folder / "out" / "realization-0").exists(), "an experiment began")
+    print("  refused before the experiment")
+
+
+case_study()
+print("design: a matrix, steps from files")
+design(CONFIGURATIONS / "design")
+with_plugin()
+if wrong:
+    sys.exit(f"{len(wrong)} wrong")
