@@ -1,9 +1,11 @@
 //! Values from a file of parameters, as engines of ensembles write it: a JSON object of names and numbers.
 //!
-//! Three forms are read, mixed or not: `{"NAME": 1.5}`, `{"NAME": {"value": 1.5}}`, and both of these in groups,
-//! `{"GROUP": {"NAME": 1.5}}`; a table whose only key is `value` is never a group. Those are what ERT writes (newer ones the
-//! second, before that groups, and beside a group of lognormal parameters their logarithms, which are left out). A name is a key of the model, as an override names
-//! it (`feature.channel.width`), unless a table of names says which it is; what such a table does not name is for other programs.
+//! Three forms are read, mixed or not: `{"NAME": 1.5}`, `{"NAME": {"value": 1.5}}`, and both of these in groups, `{"GROUP": {"NAME": 1.5}}`; a
+//! table whose only key is `value` is never a group. ERT 23 writes the second one. ERT 9 wrote groups, and beside a group with
+//! lognormal parameters another one with their logarithms, which is left out.
+//!
+//! A name is a key of the model, as an override names it (`feature.channel.width`), unless a table of names says which it is; what such a
+//! table does not name is for other programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
