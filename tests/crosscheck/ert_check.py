@@ -169,7 +169,29 @@ def with_plugin() -> None:
     print("  refused before the experiment")
 
 
+def limit_of_time() -> None:
+    print("a realisation that takes too long")
+    folder = CONFIGURATIONS / "slow"
+    folder.mkdir()
+    book = openpyxl.Workbook()
+    book.active.title = "DesignSheet"
+    # Thousands of channels that cross each other take minutes.
+    for row in [("REAL", "feature.channel.count"), (0, 2), (1, 2000)]:
+        book.active.append(row)
+    book.save(folder / "design.xlsx")
+    text = (CONFIGURATIONS / "design" / "design.ert").read_text(encoding="utf-8")
+    text = text.replace("NUM_REALIZATIONS 8", "NUM_REALIZATIONS 2").replace("MAX_RUNTIME 600", "MAX_RUNTIME 20")
+    text = text.replace("quickstart", "channel-belt").replace(", <NAMES>=<CONFIG_PATH>/names.toml", "")
+    lines = [line for line in text.splitlines() if "CLINOTHEM_GRID" not in line]
+    (folder / "slow.ert").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    ran = ert(folder / "slow.ert")
+    expect(ran.returncode == 0, f"ert ended with {ran.returncode}: {ran.stderr[-2000:]}")
+    expect(not (folder / "out" / "realization-1" / "iter-0" / "clinothem").exists(), "the slow one left results")
+    compare(folder, "channel-belt/channel-belt.toml", {0: [("feature.channel.count", 2)]}, {})
+
+
 coastal()
+limit_of_time()
 print("design: a matrix, steps from files")
 design(CONFIGURATIONS / "design")
 with_plugin()
