@@ -105,8 +105,11 @@ impl Parameters {
         };
         let mut defects = Vec::new();
         for setting in settings {
-            let value = tree.copy(setting.value);
-            let put = overrides::apply_key(tree, root, &setting.key, setting.span, value);
+            let put = usable(tree, &setting.parameter)
+                .map_err(|defect| vec![defect])
+                .and_then(|value| {
+                    overrides::apply_key(tree, root, &setting.key, setting.span, value)
+                });
             defects.extend(put.err().into_iter().flatten());
         }
         defects
@@ -135,10 +138,10 @@ struct Setting {
     key: String,
     /// Where the key, or the name that stands for it, is written.
     span: Span,
-    value: NodeId,
+    parameter: Entry,
 }
 
-/// The parameters of a file.
+/// The parameters of a file: what one holds matters only if it is taken.
 struct Found(Vec<Entry>);
 
 impl Found {
@@ -172,18 +175,7 @@ impl Found {
                 })),
             }
         }
-        let mut defects = names_that_are_twice(&found);
-        for entry in &mut found {
-            match usable(tree, entry) {
-                Ok(node) => entry.node = node,
-                Err(defect) => defects.push(defect),
-            }
-        }
-        if defects.is_empty() {
-            Ok(Self(found))
-        } else {
-            Err(defects)
-        }
+        Ok(Self(found))
     }
 
     /// Each name is a key.
@@ -193,14 +185,15 @@ impl Found {
             let is_known = OPTIONAL.contains(&entry.key.as_str());
             is_word && !is_known && tree.entry(root, &entry.key).is_none()
         };
-        let strange: Vec<Defect> = self.0.iter().filter(strange).map(no_key).collect();
-        if !strange.is_empty() {
-            return Err(strange);
+        let mut defects: Vec<Defect> = self.0.iter().filter(strange).map(no_key).collect();
+        defects.extend(names_that_are_twice(&self.0));
+        if !defects.is_empty() {
+            return Err(defects);
         }
         let setting = |entry: Entry| Setting {
-            key: entry.key,
+            key: entry.key.clone(),
             span: entry.key_span,
-            value: entry.node,
+            parameter: entry,
         };
         Ok(self.0.into_iter().map(setting).collect())
     }
@@ -219,7 +212,10 @@ impl Found {
         }
         let mut settings = Vec::new();
         for named in tree.entries(parsed.root) {
-            let Some(parameter) = self.0.iter().find(|entry| entry.key == named.key) else {
+            let called = self.0.iter().filter(|entry| entry.key == named.key);
+            let called: Vec<Entry> = called.cloned().collect();
+            defects.extend(names_that_are_twice(&called));
+            let Some(parameter) = called.first() else {
                 defects.push(self.absent(named));
                 continue;
             };
@@ -227,7 +223,7 @@ impl Found {
                 Ok(keys) => settings.extend(keys.into_iter().map(|(key, span)| Setting {
                     key,
                     span,
-                    value: parameter.node,
+                    parameter: parameter.clone(),
                 })),
                 Err(defect) => defects.push(defect),
             }
@@ -289,7 +285,8 @@ fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
             let span = tree.span(entry.node);
             Ok(tree.add(span, Value::Integer(whole)))
         }
-        _ => Ok(entry.node),
+        // Of its own for each key.
+        _ => Ok(tree.copy(entry.node)),
     }
 }
 
