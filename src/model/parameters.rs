@@ -106,7 +106,7 @@ impl Parameters {
         let mut defects = Vec::new();
         for setting in settings {
             let put = usable(tree, &setting.parameter)
-                .map_err(|defect| vec![defect])
+                .map_err(|defect| vec![*defect])
                 .and_then(|value| {
                     overrides::apply_key(tree, root, &setting.key, setting.span, value)
                 });
@@ -225,7 +225,7 @@ impl Found {
                     span,
                     parameter: parameter.clone(),
                 })),
-                Err(defect) => defects.push(defect),
+                Err(defect) => defects.push(*defect),
             }
         }
         if defects.is_empty() {
@@ -265,9 +265,9 @@ fn value_of(tree: &Tree, node: NodeId) -> Option<NodeId> {
 }
 
 /// A value as the model takes it: engines of ensembles know no whole numbers, so a number that is whole is one.
-fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
+fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Box<Defect>> {
     match tree.value(entry.node) {
-        Value::Null | Value::Table(_) | Value::Date(_) => Err(Defect::new(
+        Value::Null | Value::Table(_) | Value::Date(_) => Err(Box::new(Defect::new(
             tree.span(entry.node),
             format!(
                 "the parameter {} is {}",
@@ -275,7 +275,7 @@ fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
                 tree.describe(entry.node)
             ),
             "write a number, a text, true or false, or a list of them, below a name or a name in a group",
-        )),
+        ))),
         Value::Float(value) if value.fract() == 0.0 && value.abs() <= LARGEST_WHOLE => {
             #[allow(
                 clippy::cast_possible_truncation,
@@ -291,18 +291,18 @@ fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
 }
 
 /// The keys that a table of names gives for one of them.
-fn keys_of(tree: &Tree, named: &Entry) -> Result<Vec<(String, Span)>, Defect> {
+fn keys_of(tree: &Tree, named: &Entry) -> Result<Vec<(String, Span)>, Box<Defect>> {
     let of = |node: &NodeId| Some((tree.text(*node)?.to_owned(), tree.span(*node)));
     let keys: Option<Vec<_>> = match tree.value(named.node) {
         Value::List(elements) => elements.iter().map(of).collect(),
         _ => of(&named.node).map(|key| vec![key]),
     };
     keys.filter(|keys| !keys.is_empty()).ok_or_else(|| {
-        Defect::new(
+        Box::new(Defect::new(
             tree.span(named.node),
             format!("{} says no key of the model", suggest::code(&named.key)),
             "write NAME = \"feature.channel.width\", or a list of such keys; a name with dots needs quotes",
-        )
+        ))
     })
 }
 
