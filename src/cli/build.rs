@@ -25,6 +25,7 @@ use crate::model::wells::log::Logger;
   clinothem build channel-belt.toml --without channel-3 --formats step,step-shared,brep
   clinothem build channel-belt.toml --formats none,xlsx,csv --least-area 10
   clinothem build channel-belt.toml --formats step,glb,stl,obj,ply,ts --chord 0.5
+  clinothem build channel-belt.toml --parameters parameters.json --responses pore_volume_m3,net_to_gross
   clinothem build channel-belt.toml --set feature.channel.width=30 --json")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -37,6 +38,15 @@ pub(super) struct Args {
     /// What two net solids share at least to count as connected (m²).
     #[arg(long, value_name = "M2", value_parser = finite, default_value_t = LEAST_AREA, allow_negative_numbers = true)]
     least_area: f64,
+<<<<<<< HEAD
+=======
+    /// Write measures as files of a number each, responses/NAME.txt; names are the columns of an ensemble's table, and one that
+    /// there is not tells those that there are.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    responses: Vec<String>,
+    #[command(flatten)]
+    triangles: TriangleArgs,
+>>>>>>> e/main
     #[command(flatten)]
     pub(super) engine: EngineArgs,
     /// Print the report as JSON instead of tables.

@@ -1,4 +1,4 @@
-//! Responses: measures of a realisation as files of one number each, which engines of ensembles read (GEN_DATA in ERT).
+//! Responses: measures of a realisation as files of one number each, which engines of ensembles read (`GEN_DATA` in ERT).
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! The model file: text becomes a checked [`Model`], or every defect at once.
 //!
 //! ```text
-//! text ──toml_text, json_text──▶ tree ──overrides──▶ tree ──read (serde), check──▶ Model
+//! text ──toml_text, json_text──▶ tree ──parameters, overrides──▶ tree ──read (serde), check──▶ Model
 //! ```
 //! A [`Source`] is a text and the overrides given with it; [`Model::check`] turns it into a [`Model`] whose references are
 //! indices and whose numbers are possible, or into [`Defects`]. [`Quantity`] and [`Profile`] are drawn from a [`Stream`].

@@ -1,9 +1,11 @@
 //! Values from a file of parameters, as engines of ensembles write it: a JSON object of names and numbers.
 //!
-//! Three forms are read, mixed or not: `{"NAME": 1.5}`, `{"NAME": {"value": 1.5}}`, and both of these in groups,
-//! `{"GROUP": {"NAME": 1.5}}`; a table whose only key is `value` is never a group. Those are what ERT writes (newer ones the
-//! second, before that groups, and beside a group of lognormal parameters their logarithms, which are left out). A name is a key of the model, as an override names
-//! it (`feature.channel.width`), unless a table of names says which it is; what such a table does not name is for other programs.
+//! Three forms are read, mixed or not: `{"NAME": 1.5}`, `{"NAME": {"value": 1.5}}`, and both of these in groups, `{"GROUP": {"NAME": 1.5}}`; a
+//! table whose only key is `value` is never a group. ERT 23 writes the second one. ERT 9 wrote groups, and beside a group with
+//! lognormal parameters another one with their logarithms, which is left out.
+//!
+//! A name is a key of the model, as an override names it (`feature.channel.width`), unless a table of names says which it is; what such a
+//! table does not name is for other programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -103,8 +105,11 @@ impl Parameters {
         };
         let mut defects = Vec::new();
         for setting in settings {
-            let value = tree.copy(setting.value);
-            let put = overrides::apply_key(tree, root, &setting.key, setting.span, value);
+            let put = usable(tree, &setting.parameter)
+                .map_err(|defect| vec![*defect])
+                .and_then(|value| {
+                    overrides::apply_key(tree, root, &setting.key, setting.span, value)
+                });
             defects.extend(put.err().into_iter().flatten());
         }
         defects
@@ -133,10 +138,10 @@ struct Setting {
     key: String,
     /// Where the key, or the name that stands for it, is written.
     span: Span,
-    value: NodeId,
+    parameter: Entry,
 }
 
-/// The parameters of a file.
+/// The parameters of a file: what one holds matters only if it is taken.
 struct Found(Vec<Entry>);
 
 impl Found {
@@ -170,18 +175,7 @@ impl Found {
                 })),
             }
         }
-        let mut defects = names_that_are_twice(&found);
-        for entry in &mut found {
-            match usable(tree, entry) {
-                Ok(node) => entry.node = node,
-                Err(defect) => defects.push(defect),
-            }
-        }
-        if defects.is_empty() {
-            Ok(Self(found))
-        } else {
-            Err(defects)
-        }
+        Ok(Self(found))
     }
 
     /// Each name is a key.
@@ -191,14 +185,15 @@ impl Found {
             let is_known = OPTIONAL.contains(&entry.key.as_str());
             is_word && !is_known && tree.entry(root, &entry.key).is_none()
         };
-        let strange: Vec<Defect> = self.0.iter().filter(strange).map(no_key).collect();
-        if !strange.is_empty() {
-            return Err(strange);
+        let mut defects: Vec<Defect> = self.0.iter().filter(strange).map(no_key).collect();
+        defects.extend(names_that_are_twice(&self.0));
+        if !defects.is_empty() {
+            return Err(defects);
         }
         let setting = |entry: Entry| Setting {
-            key: entry.key,
+            key: entry.key.clone(),
             span: entry.key_span,
-            value: entry.node,
+            parameter: entry,
         };
         Ok(self.0.into_iter().map(setting).collect())
     }
@@ -217,7 +212,10 @@ impl Found {
         }
         let mut settings = Vec::new();
         for named in tree.entries(parsed.root) {
-            let Some(parameter) = self.0.iter().find(|entry| entry.key == named.key) else {
+            let called = self.0.iter().filter(|entry| entry.key == named.key);
+            let called: Vec<Entry> = called.cloned().collect();
+            defects.extend(names_that_are_twice(&called));
+            let Some(parameter) = called.first() else {
                 defects.push(self.absent(named));
                 continue;
             };
@@ -225,9 +223,9 @@ impl Found {
                 Ok(keys) => settings.extend(keys.into_iter().map(|(key, span)| Setting {
                     key,
                     span,
-                    value: parameter.node,
+                    parameter: parameter.clone(),
                 })),
-                Err(defect) => defects.push(defect),
+                Err(defect) => defects.push(*defect),
             }
         }
         if defects.is_empty() {
@@ -267,9 +265,9 @@ fn value_of(tree: &Tree, node: NodeId) -> Option<NodeId> {
 }
 
 /// A value as the model takes it: engines of ensembles know no whole numbers, so a number that is whole is one.
-fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
+fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Box<Defect>> {
     match tree.value(entry.node) {
-        Value::Null | Value::Table(_) | Value::Date(_) => Err(Defect::new(
+        Value::Null | Value::Table(_) | Value::Date(_) => Err(Box::new(Defect::new(
             tree.span(entry.node),
             format!(
                 "the parameter {} is {}",
@@ -277,7 +275,7 @@ fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
                 tree.describe(entry.node)
             ),
             "write a number, a text, true or false, or a list of them, below a name or a name in a group",
-        )),
+        ))),
         Value::Float(value) if value.fract() == 0.0 && value.abs() <= LARGEST_WHOLE => {
             #[allow(
                 clippy::cast_possible_truncation,
@@ -287,23 +285,24 @@ fn usable(tree: &mut Tree, entry: &Entry) -> Result<NodeId, Defect> {
             let span = tree.span(entry.node);
             Ok(tree.add(span, Value::Integer(whole)))
         }
-        _ => Ok(entry.node),
+        // Of its own for each key.
+        _ => Ok(tree.copy(entry.node)),
     }
 }
 
 /// The keys that a table of names gives for one of them.
-fn keys_of(tree: &Tree, named: &Entry) -> Result<Vec<(String, Span)>, Defect> {
+fn keys_of(tree: &Tree, named: &Entry) -> Result<Vec<(String, Span)>, Box<Defect>> {
     let of = |node: &NodeId| Some((tree.text(*node)?.to_owned(), tree.span(*node)));
     let keys: Option<Vec<_>> = match tree.value(named.node) {
         Value::List(elements) => elements.iter().map(of).collect(),
         _ => of(&named.node).map(|key| vec![key]),
     };
     keys.filter(|keys| !keys.is_empty()).ok_or_else(|| {
-        Defect::new(
+        Box::new(Defect::new(
             tree.span(named.node),
             format!("{} says no key of the model", suggest::code(&named.key)),
             "write NAME = \"feature.channel.width\", or a list of such keys; a name with dots needs quotes",
-        )
+        ))
     })
 }
 

@@ -9,6 +9,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -58,24 +59,25 @@ def build(model: Path, settings: list[tuple[str, object]], seed: int, folder: Pa
     return json.loads((folder / "report.json").read_text(encoding="utf-8"))
 
 
-def responses(folder: Path, name: str, realisations: list[int]) -> dict[int, float]:
+def responses(folder: Path, realisations: list[int]) -> dict[tuple[str, int], float]:
+    """What ERT has stored, by response and realisation."""
     with open_storage(folder / "out" / "storage") as storage:
         ensemble = next(iter(storage.ensembles))
         made = ensemble.get_realization_list_with_responses()
         expect(made == realisations, f"ERT has responses of {made}, not of {realisations}")
-        frame = ensemble.load_responses("gen_data", tuple(realisations))
-    return {
-        row["realization"]: row["values"]
-        for row in frame.to_dicts()
-        if row["response_key"] == name
-    }
+        frame = ensemble.load_responses("gen_data", tuple(made))
+    return {(row["response_key"], row["realization"]): row["values"] for row in frame.to_dicts()}
 
 
-def compare(folder: Path, model: str, settings: dict[int, list[tuple[str, object]]]) -> None:
+def compare(
+    folder: Path,
+    model: str,
+    settings: dict[int, list[tuple[str, object]]],
+    measures: dict[str, Callable[[dict], float]],
+) -> None:
     """Each realisation that was made has the bytes of a build, and ERT has the numbers of its report."""
     made = sorted(settings)
-    pores = responses(folder, "PORE_VOLUME", made)
-    shares = responses(folder, "NET_TO_GROSS", made)
+    stored = responses(folder, made)
     distinct = set()
     for realisation in made:
         runpath = folder / "out" / f"realization-{realisation}" / "iter-0"
@@ -84,27 +86,36 @@ def compare(folder: Path, model: str, settings: dict[int, list[tuple[str, object
         found = (runpath / "clinothem" / "volumes.csv").read_bytes()
         distinct.add(found)
         expect(found == (fresh / "volumes.csv").read_bytes(), f"realisation {realisation}: volumes.csv differs")
-        for measure, values in ((report["totals"]["pore_volume_m3"], pores), (report["net_to_gross"], shares)):
+        for name, measure in measures.items():
             # ERT keeps responses in single precision.
-            expect(np.float32(measure) == np.float32(values[realisation]), f"realisation {realisation}: {measure} is {values[realisation]} in ERT")
+            expected, has = np.float32(measure(report)), np.float32(stored.get((name, realisation), np.nan))
+            expect(expected == has, f"realisation {realisation}: {name} is {expected}, in ERT {has}")
     expect(len(distinct) == len(made), f"only {len(distinct)} of {len(made)} realisations differ from each other")
-    print(f"  {len(made)} realisations: same bytes as builds, same numbers in ERT")
+    print(f"  compared {len(made)} realisations with builds, and their responses in ERT with reports")
 
 
-def case_study() -> None:
-    print("case-study: priors, a step from a file")
-    folder = CONFIGURATIONS / "case-study"
-    ran = ert(folder / "case-study.ert")
+def pore_volume(report: dict) -> float:
+    return report["totals"]["pore_volume_m3"]
+
+
+def channel_sand(report: dict) -> float:
+    return next(one["fraction"] for one in report["facies"] if one["name"] == "channel-sand")
+
+
+def coastal() -> None:
+    print("coastal: priors, a step from a file")
+    folder = CONFIGURATIONS / "coastal"
+    ran = ert(folder / "coastal.ert")
     expect(ran.returncode == 0, f"ert ended with {ran.returncode}: {ran.stderr[-2000:]}")
     settings = {}
     for realisation in REALISATIONS:
         file = folder / "out" / f"realization-{realisation}" / "iter-0" / "parameters.json"
         parameters = json.loads(file.read_text(encoding="utf-8"))
-        expect(len(parameters) == 9, f"{file} has {len(parameters)} parameters")
+        expect(len(parameters) == 12, f"{file} has {len(parameters)} parameters")
         values = {key: one["value"] for key, one in parameters.items()}
         values["feature.channel.count"] = round(values["feature.channel.count"])
         settings[realisation] = list(values.items())
-    compare(folder, "case-study/case-study.toml", settings)
+    compare(folder, "coastal/coastal.toml", settings, {"PORE_VOLUME": pore_volume, "CHANNEL_SAND": channel_sand})
 
 
 def design_rows() -> dict[int, dict[str, object]]:
@@ -130,7 +141,8 @@ def design(folder: Path, environment: dict[str, str] | None = None) -> None:
         expect(any((runpath / "grid").glob("*.GRDECL")) or any((runpath / "grid").glob("*.grdecl")), f"realisation {realisation} has no grid")
         settings[realisation] = [(key, value) for name, value in row.items() for key in KEYS[name]]
     expect(sorted(set(REALISATIONS) - set(settings)) == [5], "one realisation was to fail")
-    compare(folder, "quickstart/quickstart.toml", settings)
+    measures = {"PORE_VOLUME": pore_volume, "NET_TO_GROSS": lambda report: report["net_to_gross"]}
+    compare(folder, "quickstart/quickstart.toml", settings, measures)
 
 
 def with_plugin() -> None:
@@ -157,7 +169,29 @@ def with_plugin() -> None:
     print("  refused before the experiment")
 
 
-case_study()
+def limit_of_time() -> None:
+    print("a realisation that takes too long")
+    folder = CONFIGURATIONS / "slow"
+    folder.mkdir()
+    book = openpyxl.Workbook()
+    book.active.title = "DesignSheet"
+    # Thousands of channels that cross each other take minutes.
+    for row in [("REAL", "feature.channel.count"), (0, 2), (1, 2000)]:
+        book.active.append(row)
+    book.save(folder / "design.xlsx")
+    text = (CONFIGURATIONS / "design" / "design.ert").read_text(encoding="utf-8")
+    text = text.replace("NUM_REALIZATIONS 8", "NUM_REALIZATIONS 2").replace("MAX_RUNTIME 600", "MAX_RUNTIME 20")
+    text = text.replace("quickstart", "channel-belt").replace(", <NAMES>=<CONFIG_PATH>/names.toml", "")
+    lines = [line for line in text.splitlines() if "CLINOTHEM_GRID" not in line]
+    (folder / "slow.ert").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    ran = ert(folder / "slow.ert")
+    expect(ran.returncode == 0, f"ert ended with {ran.returncode}: {ran.stderr[-2000:]}")
+    expect(not (folder / "out" / "realization-1" / "iter-0" / "clinothem").exists(), "the slow one left results")
+    compare(folder, "channel-belt/channel-belt.toml", {0: [("feature.channel.count", 2)]}, {})
+
+
+coastal()
+limit_of_time()
 print("design: a matrix, steps from files")
 design(CONFIGURATIONS / "design")
 with_plugin()

@@ -13,6 +13,7 @@ use std::sync::Arc;
 use super::checker::Checker;
 use super::defects::{Collector, Defect, Defects, Span, Text};
 use super::file::ModelFile;
+use super::parameters::Parameters;
 use super::place::Note;
 use super::read::{Any, Field, Reader};
 use super::source::{Format, Source};
@@ -87,7 +88,7 @@ fn texts_of(source: &Source) -> Arc<Vec<Text>> {
         .map(|assignment| Text::new("--set".to_owned(), assignment.clone()));
     let parameters = source.parameters.iter();
     let parameters = parameters
-        .flat_map(|parameters| parameters.texts())
+        .flat_map(Parameters::texts)
         .map(|(name, text)| Text::new(name.to_owned(), text.to_owned()));
     Arc::new(
         std::iter::once(file)

@@ -18,7 +18,16 @@ from ert.config import (
 PROGRAM = "clinothem"
 
 # What both steps begin with; the realisation's number is its seed.
-MODEL = ["<MODEL>", "--parameters", "<PARAMETERS>", "--parameter-names=<NAMES>", "--seed", "<IENS>", "--output", "<OUTPUT>"]
+MODEL = [
+    "<MODEL>",
+    "--parameters",
+    "<PARAMETERS>",
+    "--parameter-names=<NAMES>",
+    "--seed",
+    "<IENS>",
+    "--output",
+    "<OUTPUT>",
+]
 
 
 class _Step(ForwardModelStepPlugin):
