@@ -38,15 +38,6 @@ pub(super) struct Args {
     /// What two net solids share at least to count as connected (m²).
     #[arg(long, value_name = "M2", value_parser = finite, default_value_t = LEAST_AREA, allow_negative_numbers = true)]
     least_area: f64,
-<<<<<<< HEAD
-=======
-    /// Write measures as files of a number each, responses/NAME.txt; names are the columns of an ensemble's table, and one that
-    /// there is not tells those that there are.
-    #[arg(long, value_name = "NAME", value_delimiter = ',')]
-    responses: Vec<String>,
-    #[command(flatten)]
-    triangles: TriangleArgs,
->>>>>>> e/main
     #[command(flatten)]
     pub(super) engine: EngineArgs,
     /// Print the report as JSON instead of tables.

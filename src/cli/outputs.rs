@@ -30,8 +30,8 @@ pub(super) struct OutputArgs {
     /// The application protocol that STEP files declare.
     #[arg(long, value_enum, default_value_t)]
     step_schema: Schema,
-    /// Write measures as files of a number each, responses/NAME.txt: pore_volume_m3, net_to_gross, facies.sand.volume_m3, whatever
-    /// the table of an ensemble has as a column; a name that there is not tells those that there are.
+    /// Write measures as files of a number each, responses/NAME.txt; names are the columns of an ensemble's table, and one that
+    /// there is not tells those that there are.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     responses: Vec<String>,
     #[command(flatten)]

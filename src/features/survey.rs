@@ -239,7 +239,7 @@ mod tests {
             .map(|k| reading(30.0 * f64::from(k), 3.0 * f64::from(k), 90.0))
             .collect();
         let stations = by_angles(DVec3::ZERO, &readings).unwrap();
-        let radius = 1718.873_385_392_47 / 3.0;
+        let radius = 1_718.873_385_392_47 / 3.0;
         for (station, reading) in stations.iter().zip(&readings) {
             let (sine, cosine) = reading.inclination.sin_cos();
             let expected = DVec3::new(radius * (1.0 - cosine), 0.0, -radius * sine);
