@@ -39,7 +39,7 @@ mod timed {
 
     use clinothem::assembly::{self, Assembly, Cancel, Engine, Options, Subject, proof};
     use clinothem::export::brep;
-    use clinothem::export::report::{Parts, Report};
+    use clinothem::export::report::{LEAST_AREA, Parts, Report};
     use clinothem::model::Model;
     use clinothem::model::plan::AssemblyPlan;
     use clinothem::model::realisation::Realisation;
@@ -74,8 +74,10 @@ mod timed {
             realisation,
             plan,
             assembly: &made,
+            wells: &[],
             level: options.proof,
             with_bounds: false,
+            least_area: LEAST_AREA,
         });
         let program = &report.program;
         result["version"] = json!(format!(

@@ -160,6 +160,7 @@ fn section(belt: &[Channel], line: Vec<DVec2>, title: &str) -> SectionFigure {
         extent,
         volumes: volumes(belt),
         legend: legend(),
+        wells: Vec::new(),
     }
 }
 
@@ -178,6 +179,7 @@ fn map(belt: &[Channel], traces: Vec<Trace>) -> SectionFigure {
         extent,
         volumes: volumes(belt),
         legend: legend(),
+        wells: Vec::new(),
     }
 }
 
