@@ -137,7 +137,7 @@ impl Design {
         let mut rows = Vec::new();
         for record in reader.records() {
             let record = record.map_err(|error| no_table(&error))?;
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = record.position().map_or(0, |start| line_of(bytes, start));
             rows.push(row(path, &names, rows.len() + 1, line, &record)?);
         }
         if rows.is_empty() || rows.len() > MOST_ROWS {
@@ -198,6 +198,15 @@ fn defect(source: &Source, values: &[(&str, &str)]) -> Option<Defect> {
     }
     let defects = Model::check(&source).err()?;
     defects.iter().next().cloned()
+}
+
+/// The line on which a record stands whose reading began here: what is left out before it counts, too.
+fn line_of(bytes: &[u8], start: &csv::Position) -> u64 {
+    let at = usize::try_from(start.byte()).unwrap_or(usize::MAX);
+    let rest = bytes.get(at..).unwrap_or_default();
+    let is_none = |line: &&[u8]| line.starts_with(b"#") || line.trim_ascii().is_empty();
+    let before = rest.split(|byte| *byte == b'\n').take_while(is_none);
+    start.line() + before.count() as u64
 }
 
 fn check_names(path: &Path, names: &[String]) -> Result<(), DesignError> {
@@ -328,8 +337,8 @@ mod tests {
             wrong.starts_with("design.csv, row 2 (line 3), column `feature.old-channel.depth`:"),
             "{wrong}"
         );
-        // Each by itself is right: a domain from -5 to 0, or from -20 to -10.
-        let together = told("domain.z.1,domain.z.2\n-30,5\n-5,-10\n");
+        // Each by itself is right: a domain from -10 to 0, or from -20 to -12.
+        let together = told("domain.z.1,domain.z.2\n-30,5\n-10,-12\n");
         let start = "design.csv, row 2 (line 3): its values together are no model:";
         assert!(together.starts_with(start), "{together}");
     }

@@ -31,7 +31,7 @@ pub struct Stratum {
 impl Stratum {
     /// Realisation number `number`, from 1, of a hypercube of `of`; none if that is not one of them.
     pub fn new(number: u64, of: u64) -> Option<Self> {
-        (1..=of.min(MOST)).contains(&number).then(|| Self {
+        (of <= MOST && (1..=of).contains(&number)).then(|| Self {
             place: number - 1,
             of,
         })

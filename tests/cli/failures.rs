@@ -15,7 +15,7 @@ fn wrong_arguments_are_refused_with_1_and_leave_nothing() {
         ("build model.toml --seed -1", "-1"),
         ("build model.toml --threads 0", "0"),
         ("build model.toml --time-limit 0", "0"),
-        ("build model.toml --formats stl", "stl"),
+        ("build model.toml --formats dxf", "dxf"),
         ("build model.toml --proof none", "none"),
         ("build model.toml --set nonsense", "nonsense"),
         ("build model.toml --set feature.nobody.width=3", "nobody"),

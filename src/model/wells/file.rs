@@ -147,11 +147,13 @@ fn formats(_: &mut SchemaGenerator) -> Schema {
 }
 
 fn columns(_: &mut SchemaGenerator) -> Schema {
-    let one = json!({ "type": ["string", "integer"], "minimum": 1 });
-    let keys: Map<String, Value> = Column::ALL
-        .iter()
-        .map(|column| (column.word().to_owned(), one.clone()))
-        .collect();
+    let one = |column: &Column| {
+        let word = column.word();
+        let told = format!("What the column of {word} is called, or its number from 1.");
+        let called = json!({ "description": told, "type": ["string", "integer"], "minimum": 1 });
+        (word.to_owned(), called)
+    };
+    let keys: Map<String, Value> = Column::ALL.iter().map(one).collect();
     json_schema!({ "type": "object", "properties": keys, "additionalProperties": false })
 }
 
