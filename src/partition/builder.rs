@@ -288,28 +288,6 @@ fn around(knots: &[f64], [low, high]: [f64; 2]) -> [f64; 2] {
     [knots[from], knots[to + 1]]
 }
 
-/// A face's surface reaches beyond the face by this fraction of the spans around it: far more than rounding, and less than shows.
-const BEYOND: f64 = 1e-3;
-
-/// The parameters of a surface that a range of them needs: not all of the spans around it, since readers take boxes from control
-/// points, and those of a long span lie far outside of a short face.
-fn needed(knots: &[f64], [low, high]: [f64; 2]) -> [f64; 2] {
-    let [from, to] = around(knots, [low, high]);
-    let beyond = BEYOND * (to - from);
-    // What would be left over of a span is no shorter than that.
-    let from = if low - 2.0 * beyond > from {
-        low - beyond
-    } else {
-        from
-    };
-    let to = if high + 2.0 * beyond < to {
-        high + beyond
-    } else {
-        to
-    };
-    [from, to]
-}
-
 /// The spans of a curve that hold a range of its parameters: readers get no more than an edge needs.
 fn part(curve: &Curve, range: [f64; 2]) -> Curve {
     let knots: Vec<f64> = curve.knots().distinct().iter().map(|knot| knot.0).collect();
@@ -339,7 +317,7 @@ fn extent(parts: &Parts<'_>, face: &TracedFace) -> [DVec2; 2] {
     [low, high]
 }
 
-/// The part of a face's sheet that holds the face, or its plane.
+/// The spans of a face's sheet that hold the face, or its plane.
 fn shape(parts: &Parts<'_>, face: &TracedFace) -> SheetShape {
     let sheets = &parts.geometry.regions.sheets;
     let sheet = &sheets[face.sheet];
@@ -352,7 +330,7 @@ fn shape(parts: &Parts<'_>, face: &TracedFace) -> SheetShape {
         sheet.surface.clone()
     } else {
         let [low, high] = extent(parts, face);
-        let range = |axis: usize| needed(&sheet.knots[axis], [low[axis], high[axis]]);
+        let range = |axis: usize| around(&sheet.knots[axis], [low[axis], high[axis]]);
         let ([u0, u1], [v0, v1]) = (range(0), range(1));
         let mut part = sheet.surface.clone();
         part = part.split_v(v0).map_or(part, |halves| halves.1);

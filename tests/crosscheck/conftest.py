@@ -16,6 +16,7 @@ import build123d as bd
 import pytest
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
+from xdist.scheduler import LoadScopeScheduling
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -29,6 +30,7 @@ def is_block(path):
 
 MODELS = [path for path in sorted(ROOT.glob("models/*/*.toml")) if is_block(path)]
 assert MODELS, "there are no models to check"
+STEMS = {path.stem for path in ROOT.glob("models/*/*.toml")}
 
 # How well a reader's integrals must agree with our volumes and areas, of a solid and of the sum. OpenCASCADE's adaptive ones, asked for
 # 1e-6, do to some 1e-8, and now and then end far away, whatever the accuracy asked for: the volume of a levee's channel by 1.5e-4, in
@@ -183,12 +185,17 @@ class Build:
         return abs(found - promised) <= max(relative * promised, floor)
 
 
-def pytest_collection_modifyitems(items):
+class ByModel(LoadScopeScheduling):
     """Where several processes share the work, all tests of a model go to one of them, which builds it once."""
-    for item in items:
-        parameters = getattr(item, "callspec", None)
-        model = parameters and parameters.params.get("model")
-        item.add_marker(pytest.mark.xdist_group(model.stem if model else item.nodeid.split("::")[0]))
+
+    def _split_scope(self, nodeid):
+        module, _, parameters = nodeid.partition("[")
+        stems = [stem for stem in STEMS if parameters.startswith(stem)]
+        return max(stems, key=len, default=module.split("::")[0])
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return ByModel(config, log)
 
 
 @pytest.fixture(scope="session")

@@ -218,7 +218,8 @@ def test_cells_of_committed_models_hold_what_locate_says(clinothem, model, tmp_p
     assert [one["cells"] for one in key["volumes"]] == counted.tolist()
     assert key["cells_outside"] == (volumes < 0).sum() == 0
     assert np.isclose(sum(one["fraction"] for one in key["volumes"]), 1)
-    for cell in [(0, 0, 0), (8, 3, 4), (4, 5, 2)]:
+    # Not at half height, where horizons like to lie.
+    for cell in [(0, 0, 0), (8, 3, 4), (4, 5, 1)]:
         middle = np.array(key["corner"]) + (np.array(cell) + 0.5) * np.array(key["size"])
         told = json.loads(clinothem("locate", model, "--json", "--", *middle).stdout)
         assert key["volumes"][volumes[cell]]["volume"] == told["volume"]
