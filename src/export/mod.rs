@@ -28,6 +28,7 @@ pub mod picture;
 pub mod ply;
 #[cfg(feature = "occt")]
 pub mod report;
+pub mod rows;
 #[cfg(feature = "occt")]
 pub mod sheets;
 #[cfg(feature = "occt")]

@@ -3,17 +3,10 @@
 use super::columns::Role;
 use super::whole::Summary;
 use crate::ensemble::statistics::Spread;
-use crate::export::ExportError;
+use crate::export::{ExportError, rows};
 
-/// Rows of texts as a file.
-fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> Result<String, ExportError> {
-    let failed = |error: &dyn std::fmt::Display| ExportError::Table(error.to_string());
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(&row).map_err(|error| failed(&error))?;
-    }
-    let bytes = writer.into_inner().map_err(|error| failed(&error))?;
-    String::from_utf8(bytes).map_err(|error| failed(&error))
+fn csv(lines: impl IntoIterator<Item = Vec<String>>) -> Result<String, ExportError> {
+    rows::csv(lines).map_err(|error| ExportError::Table(error.to_string()))
 }
 
 fn texts<const N: usize>(words: [&str; N]) -> Vec<String> {
