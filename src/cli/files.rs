@@ -30,3 +30,16 @@ pub(super) fn folder_of(path: &Path) -> Result<&Path, Failure> {
         folder.display()
     )))
 }
+
+/// Moves files from one folder to another one, each at once.
+pub(super) fn publish(from: &Path, to: &Path, names: &[String]) -> Result<(), Failure> {
+    for name in names {
+        let (from, to) = (from.join(name), to.join(name));
+        let parent = to.parent().map_or(Ok(()), std::fs::create_dir_all);
+        parent
+            .and_then(|()| file::readable(&from))
+            .and_then(|()| std::fs::rename(from, &to))
+            .map_err(|error| Failure::file("write", &to, &error))?;
+    }
+    Ok(())
+}

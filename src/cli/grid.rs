@@ -8,9 +8,8 @@ use glam::DVec3;
 use super::args::{ModelArgs, finite};
 use super::failure::Failure;
 use super::load::{self, Loaded};
-use super::print;
 use super::progress::Progress;
-use crate::export::file;
+use super::{files, print};
 use crate::export::grid::arrays::Arrays;
 use crate::export::grid::format::Format;
 use crate::export::grid::frame::Cells;
@@ -309,12 +308,7 @@ fn write(
     super::interrupt::unfinished_in(Some(if is_new { folder } else { staging.path() }));
     let result =
         write_files(source, formats, staging.path(), stem, progress).and_then(|(key, names)| {
-            for name in &names {
-                let (from, to) = (staging.path().join(name), folder.join(name));
-                file::readable(&from)
-                    .and_then(|()| std::fs::rename(from, &to))
-                    .map_err(|error| Failure::file("write", &to, &error))?;
-            }
+            files::publish(staging.path(), folder, &names)?;
             Ok((key, names))
         });
     drop(staging);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::engine::Built;
 use super::failure::Failure;
 use super::triangles::{self, TriangleArgs};
-use super::{interrupt, print, responses};
+use super::{files, interrupt, print, responses};
 use crate::assembly::unfinished::{self, Unfinished};
 use crate::export::mesh::Triangulation;
 use crate::export::report::Report;
@@ -138,7 +138,7 @@ impl<'a> Outputs<'a> {
                 let run = run_json(&timings, started.elapsed());
                 std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
                 names.push(RUN.to_owned());
-                triangles::publish(staging.path(), &self.folder, &names)?;
+                files::publish(staging.path(), &self.folder, &names)?;
                 Ok(names)
             });
         drop(staging);

@@ -214,7 +214,7 @@ fn write(
         )?;
         names.push(name);
     }
-    triangles::publish(staging.path(), folder, &names)?;
+    files::publish(staging.path(), folder, &names)?;
     Ok(names)
 }
 

@@ -219,16 +219,3 @@ pub(super) fn write(folder: &Path, files: Vec<Content>) -> std::io::Result<Vec<S
     }
     Ok(names)
 }
-
-/// Moves files from one folder to another one, each at once.
-pub(super) fn publish(from: &Path, to: &Path, names: &[String]) -> Result<(), Failure> {
-    for name in names {
-        let (from, to) = (from.join(name), to.join(name));
-        let parent = to.parent().map_or(Ok(()), std::fs::create_dir_all);
-        parent
-            .and_then(|()| crate::export::file::readable(&from))
-            .and_then(|()| std::fs::rename(from, &to))
-            .map_err(|error| Failure::file("write", &to, &error))?;
-    }
-    Ok(())
-}

@@ -199,14 +199,19 @@ def pytest_xdist_make_scheduler(config, log):
 
 
 @pytest.fixture(scope="session")
-def clinothem():
-    """Runs the program with these arguments, in this folder; it is to end with this code."""
+def program():
+    """Where the program is."""
     program = os.environ.get("CLINOTHEM_BIN")
     if program is None:
         subprocess.run(["cargo", "build", "--quiet", "--release", "--bin", "clinothem"], cwd=ROOT, check=True)
         target = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
         program = ROOT / target / "release" / "clinothem"
-    program = pathlib.Path(program).resolve()
+    return pathlib.Path(program).resolve()
+
+
+@pytest.fixture(scope="session")
+def clinothem(program):
+    """Runs the program with these arguments, in this folder; it is to end with this code."""
 
     def run(*arguments, cwd=ROOT, code=0):
         command = [str(program), *map(str, arguments)]

@@ -4,8 +4,6 @@ Many level horizons give places at depths that are no stations: where the path c
 """
 
 import json
-import os
-import pathlib
 import random
 import subprocess
 
@@ -14,15 +12,7 @@ import numpy as np
 import pytest
 import welleng
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEAD, DATUM = (500.0, 400.0), 25.0
-
-
-@pytest.fixture(scope="session")
-def program():
-    if not os.environ.get("CLINOTHEM_BIN"):
-        subprocess.run(["cargo", "build", "--locked", "--release"], cwd=ROOT, check=True)
-    return os.environ.get("CLINOTHEM_BIN", ROOT / "target/release/clinothem")
 
 
 def stations(seed):
