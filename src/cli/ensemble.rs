@@ -5,20 +5,19 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
-use super::args::ModelArgs;
 use super::engine::{Engine, ProofLevel};
 use super::failure::Failure;
+use super::members::MemberArgs;
 use super::outputs::Format;
-use super::{interrupt, load, print, scenarios};
+use super::{interrupt, load, print, progress};
 use crate::ensemble::Member;
-use crate::ensemble::design::Design;
 use crate::ensemble::folder::{Folder, FolderError, Manifest, Settled};
-use crate::ensemble::member::{Changes, Scenario, digest};
-use crate::ensemble::summary::{self, Summary};
+use crate::ensemble::member::digest;
+use crate::ensemble::summary::{self, Summary, Told};
 use crate::ensemble::workers::{self, End, Ended, Job, WorkersError};
-use crate::model::{Model, Source, Stratum};
+use crate::model::Model;
 
 /// Make many realisations of a model, and say what they are as a whole.
 ///
@@ -45,22 +44,7 @@ A design table has a row for each realisation and keys as --set names them for c
 )]
 pub(super) struct Args {
     #[command(flatten)]
-    model: ModelArgs,
-    /// How many realisations, with the model's seed (or --seed) and those after it.
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    n: Option<u32>,
-    /// The seeds, the first and the last.
-    #[arg(long, value_name = "A..B", value_parser = seeds, conflicts_with_all = ["n", "seed"])]
-    seeds: Option<(u64, u64)>,
-    /// A table with a row for each realisation: columns are keys of the model, and seed.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["n", "seeds", "latin_hypercube"])]
-    design: Option<PathBuf>,
-    /// Draw each parameter once from every n-th of its distribution (a Latin hypercube), not at random.
-    #[arg(long)]
-    latin_hypercube: bool,
-    /// A variant of the model, drawn with the same seeds: 'NAME: --without ID --set KEY=VALUE --max-level N'; repeatable.
-    #[arg(long, value_name = "SCENARIO", value_parser = scenarios::read)]
-    scenario: Vec<Scenario>,
+    members: MemberArgs,
     /// What each realisation writes beside its tables: formats as of build; tables for nothing else.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "tables")]
     write: Vec<Format>,
@@ -103,19 +87,6 @@ const LEAST_MEMORY: u64 = 1 << 30;
 const INTERRUPTED: &str =
     "interrupted; what was finished is kept, and the same command goes on from there";
 
-/// Reads `A..B`.
-fn seeds(text: &str) -> Result<(u64, u64), String> {
-    let ends = text
-        .split_once("..")
-        .and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
-    match ends {
-        Some((first, last)) if first <= last && last - first < 1_000_000 => Ok((first, last)),
-        _ => Err(format!(
-            "`{text}` are no seeds; write the first and the last, at most a million of them, as 1..100"
-        )),
-    }
-}
-
 /// Reads a time that is not nothing.
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds| *seconds > 0.0);
@@ -126,21 +97,21 @@ fn seconds(text: &str) -> Result<Duration, String> {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let started = Instant::now();
-    if args.model.is_standard_input() {
+    if args.members.model.is_standard_input() {
         return Err(Failure::Wrong(
             "an ensemble reads its model many times; save it as a file and name that".to_owned(),
         ));
     }
     load::start_threads()?;
-    let (model, _) = load::model(&args.model, args.json)?;
-    let members = members(args, &model)?;
-    check_scenarios(args)?;
+    let (model, _) = load::model(&args.members.model, args.json)?;
+    let members = args.members.all(&model)?;
+    args.members.check_scenarios(args.json)?;
     let manifest = manifest(args, &model)?;
     let job = job(args, &manifest, members.len())?;
     let output = args
         .output
         .clone()
-        .unwrap_or_else(|| PathBuf::from(format!("{}-ensemble", args.model.stem())));
+        .unwrap_or_else(|| PathBuf::from(format!("{}-ensemble", args.members.model.stem())));
     let cancel = interrupt::cancel_saying(INTERRUPTED)?;
     let folder = Folder::open(&output, &manifest, args.force).map_err(|error| match error {
         FolderError::Io { .. } => Failure::Surroundings(error.to_string()),
@@ -239,158 +210,9 @@ fn words(summary: &Summary, folder: &Path, kept: usize) -> String {
     lines.join("\n")
 }
 
-/// What is to be made: for each scenario, each seed or row.
-fn members(args: &Args, model: &Model) -> Result<Vec<Member>, Failure> {
-    let common = Changes {
-        set: args.model.set.clone(),
-        without: args.model.without.clone(),
-        max_level: args.model.max_level,
-    };
-    if args.model.stratum.is_some() {
-        return Err(Failure::Wrong(
-            "--stratum is of one realisation; of an ensemble write --latin-hypercube".to_owned(),
-        ));
-    }
-    if args.model.parameters.is_some() {
-        return Err(Failure::Wrong(
-            "--parameters is of one realisation; of an ensemble write --design, or --set"
-                .to_owned(),
-        ));
-    }
-    let plain = match (&args.design, args.seeds, args.n) {
-        (Some(path), ..) => designed(args, path, model.seed)?,
-        (None, seeds, n) => {
-            let (first, count) = match (seeds, n) {
-                (Some((first, last)), _) => (first, last - first + 1),
-                (None, Some(n)) => (model.seed, u64::from(n)),
-                (None, None) => {
-                    return Err(Failure::Wrong(
-                        "how many realisations? write -n 100, --seeds 1..100 or --design FILE"
-                            .to_owned(),
-                    ));
-                }
-            };
-            drawn(args, first, count)?
-        }
-    };
-    let mut scenarios: Vec<Option<&Scenario>> = args.scenario.iter().map(Some).collect();
-    if scenarios.is_empty() {
-        scenarios.push(None);
-    }
-    let of = |scenario: Option<&Scenario>| {
-        let changes = scenario.map_or_else(|| common.clone(), |one| common.and(&one.changes));
-        let name = scenario.map(|one| one.name.clone());
-        let one = move |member: &Member| Member {
-            scenario: name.clone(),
-            changes: changes.and(&member.changes),
-            ..member.clone()
-        };
-        plain.iter().map(one).collect::<Vec<_>>()
-    };
-    Ok(scenarios.into_iter().flat_map(of).collect())
-}
-
-fn drawn(args: &Args, first: u64, count: u64) -> Result<Vec<Member>, Failure> {
-    if first.checked_add(count).is_none() {
-        return Err(Failure::Wrong(format!(
-            "seeds end at {}; begin with a smaller one than {first}",
-            u64::MAX
-        )));
-    }
-    let member = |at: u64| Member {
-        number: usize::try_from(at).unwrap_or(usize::MAX).saturating_add(1),
-        scenario: None,
-        seed: first + at,
-        stratum: args
-            .latin_hypercube
-            .then(|| Stratum::new(at + 1, count))
-            .flatten(),
-        design: Vec::new(),
-        changes: Changes::default(),
-    };
-    Ok((0..count).map(member).collect())
-}
-
-/// The members of a design table, which is checked as a whole, in each scenario's model.
-fn designed(args: &Args, path: &Path, seed: u64) -> Result<Vec<Member>, Failure> {
-    let design = Design::read(path).map_err(|error| Failure::Wrong(error.to_string()))?;
-    let mut plain = source(args)?;
-    for assignment in &args.model.set {
-        plain.set(assignment.clone());
-    }
-    let mut sources = vec![plain.clone()];
-    for scenario in &args.scenario {
-        let mut source = plain.clone();
-        for assignment in &scenario.changes.set {
-            source.set(assignment.clone());
-        }
-        sources.push(source);
-    }
-    for source in &sources {
-        design
-            .check(source)
-            .map_err(|error| Failure::Wrong(error.to_string()))?;
-    }
-    let member = |(at, row): (usize, &crate::ensemble::design::Row)| {
-        let values = design.values(row);
-        let design: Vec<(String, String)> = values
-            .map(|(key, value)| (key.to_owned(), value.to_owned()))
-            .collect();
-        Member {
-            number: at + 1,
-            scenario: None,
-            seed: row.seed.unwrap_or(seed),
-            stratum: None,
-            changes: Changes {
-                set: design
-                    .iter()
-                    .map(|(key, value)| format!("{key}={value}"))
-                    .collect(),
-                ..Changes::default()
-            },
-            design,
-        }
-    };
-    Ok(design.rows.iter().enumerate().map(member).collect())
-}
-
-fn source(args: &Args) -> Result<Source, Failure> {
-    Source::read(&args.model.model).map_err(|error| Failure::Wrong(error.to_string()))
-}
-
-/// Each scenario must be a model, and have a name of its own.
-fn check_scenarios(args: &Args) -> Result<(), Failure> {
-    for (at, scenario) in args.scenario.iter().enumerate() {
-        let name = &scenario.name;
-        if args.scenario[..at].iter().any(|other| other.name == *name) {
-            return Err(Failure::Wrong(format!(
-                "two scenarios are called `{name}`; give each a name of its own"
-            )));
-        }
-        let all = ModelArgs {
-            model: args.model.model.clone(),
-            seed: args.model.seed,
-            stratum: None,
-            parameters: None,
-            parameter_names: None,
-            set: [&args.model.set[..], &scenario.changes.set].concat(),
-            without: [&args.model.without[..], &scenario.changes.without].concat(),
-            max_level: scenario.changes.max_level.or(args.model.max_level),
-        };
-        load::model(&all, args.json).map_err(|failure| match failure {
-            Failure::Wrong(text) => Failure::Wrong(format!("scenario `{name}`: {text}")),
-            other => {
-                print::err(&format!("scenario `{name}`:"));
-                other
-            }
-        })?;
-    }
-    Ok(())
-}
-
 /// What all realisations have in common.
 fn manifest(args: &Args, model: &Model) -> Result<Manifest, Failure> {
-    let path = &args.model.model;
+    let path = &args.members.model.model;
     let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
     let files: Vec<_> = model
         .files()
@@ -403,9 +225,9 @@ fn manifest(args: &Args, model: &Model) -> Result<Manifest, Failure> {
         ("name", serde_json::json!(model.name)),
         ("files", serde_json::json!(files)),
         ("build", serde_json::json!(build_arguments(args))),
-        ("set", serde_json::json!(args.model.set)),
-        ("without", serde_json::json!(args.model.without)),
-        ("max_level", serde_json::json!(args.model.max_level)),
+        ("set", serde_json::json!(args.members.model.set)),
+        ("without", serde_json::json!(args.members.model.without)),
+        ("max_level", serde_json::json!(args.members.model.max_level)),
     ];
     Ok(common.map(|(key, value)| (key.to_owned(), value)).into())
 }
@@ -447,7 +269,7 @@ fn job(args: &Args, manifest: &Manifest, members: usize) -> Result<Job, Failure>
     let failed = |error: serde_json::Error| Failure::Surroundings(error.to_string());
     Ok(Job {
         program,
-        model: args.model.model.clone(),
+        model: args.members.model.model.clone(),
         sha256: manifest["model"].as_str().unwrap_or_default().to_owned(),
         arguments: build_arguments(args),
         common: serde_json::to_string(manifest).map_err(failed)?,
@@ -482,18 +304,18 @@ fn summarise(
 ) -> Result<Summary, Failure> {
     let mut all = Vec::new();
     for (member, end) in members.iter().zip(ends) {
-        let report = match end {
+        let told = match end {
             End::Settled(Settled::Made) => {
                 let path = folder.of(member).join("report.json");
                 let failed = |error: &std::io::Error| Failure::file("read", &path, error);
                 let bytes = std::fs::read(&path).map_err(|error| failed(&error))?;
                 let report: serde_json::Value =
                     serde_json::from_slice(&bytes).map_err(|error| failed(&error.into()))?;
-                Some(report)
+                Some(Told::by(&report))
             }
             _ => None,
         };
-        all.push((member, end, report));
+        all.push((member, end, told));
     }
     let summary = Summary::new(&model.name, &all, args.of.as_deref())
         .map_err(|error| Failure::Wrong(error.to_string()))?;
@@ -539,24 +361,11 @@ struct Progress {
 
 impl Progress {
     fn new(quiet: bool, of: usize, due: usize) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(due as u64), target);
         let words =
             format!("[{{bar:30}}] {{pos}}/{{len}} of {of}  {{elapsed}}, {{eta}} to go  {{msg}}");
-        let style = ProgressStyle::with_template(&words);
-        bar.set_style(
-            style
-                .unwrap_or_else(|_| ProgressStyle::default_bar())
-                .progress_chars("=> "),
-        );
-        if !bar.is_hidden() {
-            bar.enable_steady_tick(Duration::from_millis(250));
+        Self {
+            bar: progress::bar(quiet, due as u64, &words),
         }
-        Self { bar }
     }
 
     fn tell(&self, ended: &Ended) {

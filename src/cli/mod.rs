@@ -22,6 +22,8 @@ mod interrupt;
 mod load;
 mod locate;
 mod log;
+#[cfg(feature = "occt")]
+mod members;
 mod new;
 #[cfg(feature = "occt")]
 mod outputs;

@@ -7,6 +7,27 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 #[cfg(feature = "occt")]
 use crate::assembly::Stage;
 
+/// A bar of so many steps; hidden when quiet, or when standard error is no terminal, and then nothing moves by itself either, which
+/// would take a thread.
+pub(super) fn bar(quiet: bool, steps: u64, template: &str) -> ProgressBar {
+    let target = if quiet {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    };
+    let bar = ProgressBar::with_draw_target(Some(steps), target);
+    let style = ProgressStyle::with_template(template);
+    bar.set_style(
+        style
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .progress_chars("=> "),
+    );
+    if !bar.is_hidden() {
+        bar.enable_steady_tick(Duration::from_millis(250));
+    }
+    bar
+}
+
 /// A bar that shows the stage, its share and the time it takes.
 pub(super) struct Progress {
     bar: ProgressBar,
@@ -16,25 +37,12 @@ pub(super) struct Progress {
 const STEPS: u64 = 100;
 
 impl Progress {
-    /// Hidden when quiet, or when standard error is no terminal; then nothing moves by itself either, which would take a
-    /// thread.
+    /// Hidden when quiet.
     pub(super) fn new(quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
-        let style = ProgressStyle::with_template("{msg:12} [{bar:30}] {percent:>3} %  {elapsed}");
-        bar.set_style(
-            style
-                .unwrap_or_else(|_| ProgressStyle::default_bar())
-                .progress_chars("=> "),
-        );
-        if !bar.is_hidden() {
-            bar.enable_steady_tick(Duration::from_millis(250));
+        let template = "{msg:12} [{bar:30}] {percent:>3} %  {elapsed}";
+        Self {
+            bar: bar(quiet, STEPS, template),
         }
-        Self { bar }
     }
 
     /// A stage that has no share.

@@ -80,20 +80,37 @@ pub struct Table {
 /// Named numbers, in the order of the report.
 type Numbers = Vec<(String, f64)>;
 
+/// The numbers of a realisation's report: all that a summary wants of it, and far less than it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Told {
+    drawn: Numbers,
+    measures: Numbers,
+}
+
+impl Told {
+    /// What a report says.
+    pub fn by(report: &Value) -> Self {
+        Self {
+            drawn: drawn(report),
+            measures: measures(report),
+        }
+    }
+}
+
 impl Table {
-    /// Of members and their reports.
-    pub fn of<'a>(made: impl Iterator<Item = (&'a Member, &'a Value)>) -> Self {
+    /// Of members and what their reports say.
+    pub fn of<'a>(made: impl Iterator<Item = (&'a Member, &'a Told)>) -> Self {
         let mut rows = Vec::new();
         let mut cells: Vec<[Numbers; 3]> = Vec::new();
-        for (member, report) in made {
+        for (member, told) in made {
             let design = member.design.iter();
             let design = design.filter_map(|(key, value)| Some((key.clone(), value.parse().ok()?)));
             cells.push([
                 design
                     .filter(|(_, value): &(_, f64)| value.is_finite())
                     .collect(),
-                drawn(report),
-                measures(report),
+                told.drawn.clone(),
+                told.measures.clone(),
             ]);
             rows.push(Row {
                 name: member.name(),
@@ -368,8 +385,8 @@ mod tests {
 
     #[test]
     fn every_number_of_the_whole_is_a_column_and_what_is_told_part_by_part_is_summed() {
-        let (member, report) = (member(1), report());
-        let table = Table::of(std::iter::once((&member, &report)));
+        let (member, told) = (member(1), Told::by(&report()));
+        let table = Table::of(std::iter::once((&member, &told)));
         let found: Vec<(&str, Role, Option<f64>)> = table
             .columns
             .iter()
@@ -424,6 +441,7 @@ mod tests {
         let (first, second) = (member(1), member(2));
         let (one, mut two) = (report(), report());
         two["connectivity"] = json!({ "new": 1 });
+        let (one, two) = (Told::by(&one), Told::by(&two));
         let table = Table::of([(&first, &one), (&second, &two)].into_iter());
         let at = |name| {
             table

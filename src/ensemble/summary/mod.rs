@@ -8,7 +8,7 @@ mod plots;
 mod tables;
 mod whole;
 
-pub use columns::{Column, Role, Table, measures};
+pub use columns::{Column, Role, Table, Told, measures};
 pub use page::page;
 pub use plots::{Plot, PlotError, plots};
 pub use tables::{correlations, quantiles, realisations, unmade};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::columns::Table;
+use super::columns::{Table, Told};
 use crate::ensemble::member::Member;
 use crate::ensemble::statistics::{FEW, Spread, rank_correlation};
 use crate::ensemble::workers::End;
@@ -88,15 +88,15 @@ pub enum SummaryError {
 }
 
 impl Summary {
-    /// Of members and how they ended, those made with their reports; `result` is what the plots are to be about.
+    /// Of members and how they ended, those made with what their reports say; `result` is what the plots are to be about.
     pub fn new(
         model: &str,
-        members: &[(&Member, &End, Option<serde_json::Value>)],
+        members: &[(&Member, &End, Option<Told>)],
         result: Option<&str>,
     ) -> Result<Self, SummaryError> {
         let made = members
             .iter()
-            .filter_map(|(member, _, report)| Some((*member, report.as_ref()?)));
+            .filter_map(|(member, _, told)| Some((*member, told.as_ref()?)));
         let table = Table::of(made);
         let result = match result {
             Some(name) if table.measure(name).is_none() && !table.rows.is_empty() => {
@@ -125,7 +125,7 @@ impl Summary {
             .collect();
         let unmade = members
             .iter()
-            .filter(|(.., report)| report.is_none())
+            .filter(|(.., told)| told.is_none())
             .map(|(member, end, _)| Unmade {
                 realisation: member.name(),
                 seed: member.seed,
