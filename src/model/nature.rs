@@ -23,10 +23,18 @@ pub struct Nature {
     pub apart: &'static str,
 }
 
+/// Keys of what is rock, or has a place among what is.
+pub(crate) const NO_ROCK: [&str; 5] = ["facies", "properties", "conform", "removed_by", "along"];
+
 impl Nature {
     /// Whether one of the kind makes many volumes.
     pub fn is_many(&self) -> bool {
-        self.volumes != Volumes::One
+        matches!(self.volumes, Volumes::Many { .. })
+    }
+
+    /// Whether it is no rock, but moves what is older.
+    pub fn is_event(&self) -> bool {
+        self.volumes == Volumes::None
     }
 
     /// The keys that features have, and those of the kind have not.
@@ -37,6 +45,9 @@ impl Nature {
         }
         if matches!(self.within, Within::Domain { .. }) {
             keys.push("parent");
+        }
+        if self.is_event() {
+            keys.extend(NO_ROCK);
         }
         keys
     }
@@ -104,6 +115,8 @@ pub enum Gives {
     Way,
     /// Sheets without an end inside the domain.
     Sheets,
+    /// A fault.
+    Fault,
 }
 
 impl Gives {
@@ -113,6 +126,7 @@ impl Gives {
             Self::Nothing => "a feature",
             Self::Way => "a channel",
             Self::Sheets => "a horizon, or a set of clinoforms or one of it",
+            Self::Fault => "a fault",
         }
     }
 }
@@ -148,6 +162,8 @@ pub enum Taking {
 /// How many volumes one of a kind makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Volumes {
+    /// None: it is an event, which moves all that is older.
+    None,
     /// One.
     One,
     /// As many as it is drawn with, up to a number; what they divide may have nothing left.

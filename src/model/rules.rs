@@ -18,6 +18,10 @@
 //!
 //! A horizon given by its thickness above another one lies nowhere below that one, whatever its surface does where the
 //! thickness is none: such a volume holds a place only where what it lies `above` does, too.
+//!
+//! A fault parts all that is older in two *blocks*. Its hanging wall is a volume with the background's part in the rules, which takes all
+//! that lies on its side whatever protects that: a fault removes nothing, it moves. What is older exists once more as copies in that
+//! block, moved: they take from what is in the block alone. So a block's volume is to them what the background is to what is in no block.
 
 mod meeting;
 
@@ -57,6 +61,21 @@ pub struct VolumeRules {
     pub piece_of: Option<usize>,
     /// The younger volume that it goes along as a companion: no rule, but where people look for it.
     pub along: Option<usize>,
+    /// Where it lies among the blocks that faults part.
+    pub block: BlockRules,
+}
+
+/// A volume's part in the rules of blocks.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BlockRules {
+    /// Whether it is what a block holds where nothing else does: its ground, as the background is everywhere else.
+    pub is_ground: bool,
+    /// The ground of the block that it lies in: it takes from this and from what lies in that block alone.
+    pub within: Option<usize>,
+    /// The grounds of blocks that it does not reach into.
+    pub outside: Vec<usize>,
+    /// The block's name, such as `a.hw+b.fw`; empty if no fault parts what it is a piece of.
+    pub name: String,
 }
 
 /// All volumes' rules, resolved: volume 0 is the background, then in order of evaluation.
@@ -73,6 +92,9 @@ struct Resolved {
     from: Option<usize>,
     above: Option<usize>,
     piece_of: Option<usize>,
+    within: Option<usize>,
+    outside: Vec<usize>,
+    is_ground: bool,
     preserve: bool,
     removes: Chosen,
     removed_by: Chosen,
@@ -110,6 +132,8 @@ pub enum Verdict {
     OutsideParent,
     /// The holder is neither what it divides nor descends from that.
     NotOpen,
+    /// The holder lies in another block.
+    OtherBlock,
     /// It preserves, and the holder is neither its parent nor the background.
     Preserves,
     /// Its `removes` does not admit the holder.
@@ -125,6 +149,7 @@ impl Verdict {
             Self::Takes => "takes it",
             Self::OutsideParent => "leaves it: the holder is not in its parent",
             Self::NotOpen => "leaves it: the unit that it lies on is not open there",
+            Self::OtherBlock => "leaves it: the holder lies in another block",
             Self::Preserves => "leaves it: it preserves what is there",
             Self::DoesNotRemove => "leaves it: its `removes` does not admit the holder",
             Self::Protected => "leaves it: the holder's `removed_by` does not admit it",
@@ -154,16 +179,25 @@ impl Chosen {
 }
 
 impl VolumeRules {
+    /// Its name without that of its block: all pieces of what faults part have the same.
+    pub fn unfaulted_name(&self) -> &str {
+        let block = &self.block.name;
+        let own = self.name.strip_suffix(block.as_str());
+        own.and_then(|own| own.strip_suffix('@'))
+            .unwrap_or(&self.name)
+    }
+
     fn is_picked_by(&self, pick: &Pick) -> bool {
+        let name = self.unfaulted_name();
         match pick {
-            Pick::Id(id) => self.feature == *id || self.name == *id,
+            Pick::Id(id) => self.feature == *id || name == *id,
             Pick::Part(feature, part) => {
                 let named = format!("{feature}{part}");
-                let mut ends = self.name.match_indices(&named);
+                let mut ends = name.match_indices(&named);
                 self.feature == *feature
                     && ends.any(|(at, _)| {
-                        let rest = &self.name[at + named.len()..];
-                        (at == 0 || self.name[..at].ends_with('/'))
+                        let rest = &name[at + named.len()..];
+                        (at == 0 || name[..at].ends_with('/'))
                             && (rest.is_empty() || rest.starts_with('/'))
                     })
             }
@@ -194,6 +228,9 @@ impl Rules {
                 from: volume.from,
                 above: volume.above,
                 piece_of: volume.piece_of,
+                within: volume.block.within,
+                outside: volume.block.outside.clone(),
+                is_ground: volume.block.is_ground,
                 preserve: volume.preserve,
                 removes: chosen(&volume.removes),
                 removed_by: chosen(&volume.removed_by),
@@ -228,14 +265,20 @@ impl Rules {
     /// What a body does to a holder of a place inside it.
     pub fn verdict(&self, body: usize, holder: usize) -> Verdict {
         let rules = &self.volumes[body];
-        if rules
+        if rules.within.is_some_and(|ground| !self.lies_in(holder, ground))
+            || rules.outside.iter().any(|ground| self.lies_in(holder, *ground))
+        {
+            Verdict::OtherBlock
+        } else if rules.is_ground {
+            Verdict::Takes
+        } else if rules
             .parent
             .is_some_and(|parent| !self.descends(holder, parent))
         {
             Verdict::OutsideParent
         } else if rules.from.is_some_and(|from| !self.descends(holder, from)) {
             Verdict::NotOpen
-        } else if rules.preserve && holder != BACKGROUND && Some(holder) != rules.parent {
+        } else if rules.preserve && !self.is_ground(holder) && Some(holder) != rules.parent {
             Verdict::Preserves
         } else if !rules.removes.admits(holder) {
             Verdict::DoesNotRemove
@@ -280,7 +323,10 @@ impl Rules {
     /// Whether a body takes every place inside it, whatever holds that.
     pub fn takes_everything(&self, body: usize) -> bool {
         let volume = &self.volumes[body];
-        volume.from.is_none() && volume.above.is_none() && volume.past.covers_since.is_some()
+        volume.from.is_none()
+            && volume.above.is_none()
+            && volume.within.is_none()
+            && volume.past.covers_since.is_some()
     }
 
     /// Every body that has a say about a place, and what it does to the holder so far.
@@ -315,6 +361,23 @@ impl Rules {
     /// A volume, and those that lie above it: whatever else a place is in, they do not hold it outside of this one's body.
     fn resting(&self, volume: usize) -> impl Iterator<Item = usize> {
         std::iter::once(volume).chain(self.upon[volume].iter().copied())
+    }
+
+    /// Whether a volume is the ground of a block, or of everything.
+    pub fn is_ground(&self, volume: usize) -> bool {
+        volume == BACKGROUND || self.volumes[volume].is_ground
+    }
+
+    /// Whether a volume is the ground of a block or lies in it, perhaps in a block within that.
+    fn lies_in(&self, volume: usize, ground: usize) -> bool {
+        let mut at = Some(volume);
+        while let Some(volume) = at {
+            if volume == ground {
+                return true;
+            }
+            at = self.volumes[volume].within;
+        }
+        false
     }
 
     fn descends(&self, volume: usize, ancestor: usize) -> bool {

@@ -343,11 +343,13 @@ impl Checker<'_> {
                 domain,
             })
         });
+        let is_event = draft.kind.is_some_and(|kind| kind.is_event());
         // Without a kind nobody knows which keys are wrong.
         if draft.kind.is_some() {
             self.reader.close(draft.node, &draft.name);
         }
         let named = match &draft.file.facies {
+            Field::Missing if is_event => None,
             Field::Missing => {
                 self.reader
                     .missing(draft.node, &draft.name, "facies", "facies = \"sand\"");
@@ -357,6 +359,8 @@ impl Checker<'_> {
             Field::Good(at, name) => Some((*at, name)),
         };
         let facies = named.and_then(|(at, name)| self.known_facies(at, name, family.facies));
+        // What is no rock has none; it stands for that of the background.
+        let facies = facies.or_else(|| domain.filter(|_| is_event).map(|domain| domain.facies));
         let conform = self.conform(draft, family);
         let properties = match draft.file.properties {
             None => Some(Vec::new()),

@@ -239,7 +239,7 @@ impl Kind for ChannelSpec {
             (None, None) => any_top(deepest, domain, draws)?,
         };
         let rims = top.range().1;
-        let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain);
+        let overshoot = 2.0 * width.range().1 + OVERSHOOT * diagonal(domain) + site.beyond();
         let mut trajectory = trajectory::trajectory(&self.trajectory, site, overshoot, draws)?;
         if let Some(joining) = &joining {
             trajectory = joining.way(&trajectory, width.at(1.0))?;

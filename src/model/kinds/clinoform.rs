@@ -198,7 +198,7 @@ impl Kind for ClinoformSpec {
         let (Frame::Unit(base), Some(top)) = (site.frame, site.top) else {
             return Err(("no unit", "its base or its top is no horizon".to_owned()));
         };
-        let (low, high) = site.domain.corners();
+        let (low, high) = site.room.corners();
         let range = |horizon: &crate::features::horizon::Horizon| {
             let range = horizon.range(low, high);
             range.map_err(|error| ("no unit", error.to_string()))
@@ -220,7 +220,7 @@ impl Kind for ClinoformSpec {
             is_level: [base, top].iter().all(|bound| bound.level().is_some()),
         };
         let crest = {
-            let overshoot = OVERSHOOT * diagonal(site.domain);
+            let overshoot = OVERSHOOT * diagonal(site.room);
             trajectory::trajectory(&self.trajectory, site, overshoot, draws)?
         };
         let design = self.design(&crest, unit, site.nudge, draws)?;

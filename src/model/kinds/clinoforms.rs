@@ -194,7 +194,7 @@ impl Kind for ClinoformsSpec {
             sheets,
             boundaries,
             nowhere,
-        } = self.draw(site.domain, [base, top], site.nudge, draws)?;
+        } = self.draw(site.room, [base, top], site.nudge, draws)?;
         let mut parts = Vec::new();
         let mut firsts = Vec::with_capacity(sheets.len() + 1);
         // Without belts, what lies below the first sheet stays the unit's.

@@ -125,6 +125,7 @@ impl Kind for HorizonSpec {
                 }
                 _ => Vec::new(),
             },
+            event: None,
         })
     }
 

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::features::body::Body;
 use crate::features::fabric::Fabric;
 use crate::features::horizon::Horizon;
+use crate::features::motion::Motion;
 use crate::features::reach::Reach;
 use crate::features::side::Side;
 use crate::model::domain::Domain;
@@ -21,6 +22,8 @@ use crate::model::warp::Warp;
 pub(crate) struct Site<'a> {
     /// The block that is modelled.
     pub(crate) domain: &'a Domain,
+    /// The same with whatever comes to lie in it because younger events move it: so far its surfaces must reach.
+    pub(crate) room: &'a Domain,
     /// What the parent holds, for kinds that ask for it.
     pub(crate) interior: Option<&'a Interior>,
     /// Of a base: its surface, as decided among all of them, and what was drawn for it.
@@ -51,6 +54,12 @@ impl<'a> Site<'a> {
                 "its parent is no channel with a floor and a top between rims".to_owned(),
             )
         })
+    }
+
+    /// How far surfaces must reach beyond the domain in plan because events bring what is there into it (m).
+    pub(crate) fn beyond(&self) -> f64 {
+        let beyond = |domain: [f64; 2], room: [f64; 2]| (domain[0] - room[0]).max(room[1] - domain[1]);
+        beyond(self.domain.x, self.room.x).max(beyond(self.domain.y, self.room.y))
     }
 
     /// Whether anything between two corners can lie in the domain.
@@ -141,6 +150,40 @@ pub(crate) struct Made {
     pub(crate) frame: Frame,
     /// What was decided about it, to go on after its name.
     pub(crate) decisions: Vec<String>,
+    /// What it does to all that is older, if it is an event and no rock.
+    pub(crate) event: Option<Event>,
+}
+
+/// What moves all that is older.
+#[derive(Clone, Debug)]
+pub(crate) struct Event {
+    /// Where what was at a place is afterwards: on one side of the instance's part, or everywhere if it has none.
+    pub(crate) motion: Motion,
+    /// Whether the part is one side of a plane.
+    pub(crate) is_plane: bool,
+    /// Of a fault that ends on another one, the first that it refers to: on which side of that it lies.
+    pub(crate) ends_on: Option<Wall>,
+    /// How far what it moves may be off (m); by the domain's size if absent.
+    pub(crate) tolerance: Option<f64>,
+}
+
+/// A side of a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wall {
+    /// What lies above it.
+    Hanging,
+    /// What lies below it.
+    Foot,
+}
+
+impl Wall {
+    /// Its word in names of blocks.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Hanging => "hw",
+            Self::Foot => "fw",
+        }
+    }
 }
 
 /// By what children are placed in an instance.
@@ -213,6 +256,7 @@ impl Made {
             parts,
             frame: Frame::None,
             decisions: Vec::new(),
+            event: None,
         }
     }
 }

@@ -198,7 +198,7 @@ impl Kind for MeanderBeltSpec {
             }
             draws.uniform(lowest, highest, "top")?
         };
-        let overshoot = 2.0 * width + OVERSHOOT * diagonal(domain);
+        let overshoot = 2.0 * width + OVERSHOOT * diagonal(domain) + site.beyond();
         let migration = self.migration(site, overshoot, rise, draws)?;
         let drawn = draws.taken();
         let mut parts = Vec::with_capacity(self.steps);

@@ -12,6 +12,7 @@ pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
+pub(crate) mod fault;
 mod kind;
 pub(crate) mod lag;
 pub(crate) mod levee;
@@ -40,6 +41,7 @@ use channel::ChannelSpec;
 use clinoform::ClinoformSpec;
 use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
+use fault::FaultSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use kind::Kind;
@@ -194,6 +196,8 @@ kinds! {
     Splay(SplaySpec),
     /// A channel or a unit in layers.
     Trend(TrendSpec),
+    /// What lies above it has moved against what lies below.
+    Fault(FaultSpec),
 }
 
 impl FeatureKind {

@@ -292,7 +292,7 @@ impl ScourSpec {
         let (length, azimuth_deg, place) = match &self.way {
             Way::Along(spec) => {
                 let top = site.elevation(top, "top", [deepest, 0.0], draws)?;
-                let overshoot = 0.05 * diagonal(site.domain);
+                let overshoot = 0.05 * diagonal(site.domain) + site.beyond();
                 let trajectory = trajectory::trajectory(spec, site, overshoot, draws)?;
                 return Ok((trajectory, top));
             }

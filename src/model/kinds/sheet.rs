@@ -51,7 +51,7 @@ impl Kind for SheetSpec {
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
         let nets = self.placed.draw(site.nudge * ASIDE, draws)?;
-        let (low, high) = site.domain.corners();
+        let (low, high) = site.room.corners();
         let side = nets
             .above(low, high)
             .map_err(|error: NetsError| ("no sheet", error.to_string()))?;

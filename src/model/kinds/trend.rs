@@ -256,7 +256,7 @@ impl TrendSpec {
         if course == Course::Proportional {
             check_thickness(site, [base, top])?;
         }
-        let (low, high) = site.domain.corners();
+        let (low, high) = site.room.corners();
         let drawn = draws.taken();
         let mut parts = vec![self.layer(
             1,
@@ -290,7 +290,7 @@ impl TrendSpec {
 
 /// Proportional surfaces of a unit that ends would all meet there.
 fn check_thickness(site: &Site<'_>, [base, top]: [&Horizon; 2]) -> Result<(), Reason> {
-    let (low, high) = site.domain.corners();
+    let (low, high) = site.room.corners();
     let least = (0..ASKED * ASKED)
         .map(|k| {
             let part = |i: usize| i as f64 / (ASKED - 1) as f64;

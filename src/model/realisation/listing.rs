@@ -1,6 +1,7 @@
 //! The list of instances, in order of evaluation; and the surfaces through the whole domain, which are decided together
 //! before anything is made.
 
+mod blocks;
 mod coincidence;
 mod rock;
 pub(super) mod volumes;
@@ -41,6 +42,10 @@ pub(super) struct Due {
     pub(super) takes_part: bool,
     /// What bounds its unit above, if it asked for that.
     pub(super) top: Option<Horizon>,
+    /// Whether that is the domain's top.
+    pub(super) is_top_of_domain: bool,
+    /// The events that move it, by feature, the oldest first.
+    pub(super) events: Vec<usize>,
     /// How far it moves so that contacts which coincide are decided by age (m).
     pub(super) nudge: f64,
 }
@@ -302,8 +307,13 @@ impl<'a> Listing<'a> {
             Copies::One(_) => number.to_string(),
             Copies::Any | Copies::OneEach(_) | Copies::Members => key(&numbers),
         };
+        let events = events(self.model, self.selection, way[0].0);
         let top = feature.kind.top();
-        let top = top.map(|top| self.top(feature, top, takes_part));
+        let top = top.map(|top| self.top(feature, top, takes_part, &events));
+        let (top, is_top_of_domain) = match top.transpose()? {
+            Some((top, is_domain)) => (Some(top), is_domain),
+            None => (None, false),
+        };
         let due = Due {
             feature: index,
             name,
@@ -313,7 +323,9 @@ impl<'a> Listing<'a> {
             referents: Vec::new(),
             rank: self.ranks[index],
             takes_part,
-            top: top.transpose()?,
+            top,
+            is_top_of_domain,
+            events,
             nudge: if takes_part {
                 self.nudge(nature.name)
             } else {
@@ -357,15 +369,16 @@ impl<'a> Listing<'a> {
     }
 
     /// What bounds a unit above: the base that a feature names, or, if that takes no part, the next one that does, or the
-    /// domain's top. So it is for a feature that names none, too.
+    /// domain's top. So it is for a feature that names none, too. With whether it is the domain's top.
     fn top(
         &mut self,
         feature: &Feature,
         top: Bound,
         takes_part: bool,
-    ) -> Result<Horizon, RealisationError> {
+        events: &[usize],
+    ) -> Result<(Horizon, bool), RealisationError> {
         let Bound::Horizon(own) = top else {
-            return self.domain_bound(true);
+            return Ok((self.domain_bound(true)?, true));
         };
         let features = &self.model.features;
         let stands = |at: &usize| {
@@ -380,9 +393,19 @@ impl<'a> Listing<'a> {
                 feature.id, features[own].id
             ));
         }
+        let between = events.iter().find(|event| top.is_some_and(|top| **event < top));
+        if let (Some(event), Some(top), true) = (between, top, takes_part) {
+            let [event, top] = [*event, top].map(|at| features[at].id.as_str());
+            return Err(RealisationError::Impossible {
+                volume: feature.id.clone(),
+                reason: format!(
+                    "its unit reaches up to {top}, which is younger than {event}, which moves the unit; give it a top that is older than {event}"
+                ),
+            });
+        }
         match top.and_then(|top| self.horizons.get(&top)) {
-            Some((horizon, _)) => Ok(horizon.clone()),
-            None => self.domain_bound(true),
+            Some((horizon, _)) => Ok((horizon.clone(), false)),
+            None => Ok((self.domain_bound(true)?, true)),
         }
     }
 
@@ -437,14 +460,36 @@ fn guests(model: &Model) -> BTreeMap<Option<Host>, Vec<usize>> {
     guests
 }
 
-/// By feature, what is made before it.
+/// By feature, what is made before it: what moves it, too, since it must reach as far as that asks for.
 fn waits(model: &Model) -> references::Waits {
-    let waits = |feature: &Feature| {
+    let is_event = |at: &usize| model.features[*at].kind.nature().is_event();
+    let waits = |at: usize| {
+        let feature = &model.features[at];
         let host = feature.host().map(Host::feature);
         let referents = feature.refers().into_iter().map(|one| one.feature);
-        host.into_iter().chain(referents).collect()
+        let younger = (outermost(model, at) + 1..model.features.len()).filter(is_event);
+        let events = younger.filter(|_| !is_event(&at));
+        host.into_iter().chain(referents).chain(events).collect()
     };
-    model.features.iter().map(waits).collect()
+    (0..model.features.len()).map(waits).collect()
+}
+
+/// The feature by whose place in the list it is known how old another one is: the outermost of what that goes with.
+fn outermost(model: &Model, feature: usize) -> usize {
+    let mut at = feature;
+    while let Some(host) = model.features[at].host() {
+        at = host.feature();
+    }
+    at
+}
+
+/// The events after a feature in the list that take part.
+fn events(model: &Model, selection: &Selection, feature: usize) -> Vec<usize> {
+    let moves = |at: &usize| {
+        let event = &model.features[*at];
+        event.kind.nature().is_event() && selection.keeps_feature(event)
+    };
+    (feature + 1..model.features.len()).filter(moves).collect()
 }
 
 /// By feature: whether what takes part, or what that is made by, refers to it or to something that goes with it.

@@ -9,6 +9,7 @@ use super::listing::{Due, Listing};
 use super::{RealisationError, draw_whole};
 use crate::features::body::Body;
 use crate::features::fabric::Fabric;
+use crate::model::domain::Domain;
 use crate::model::draws::{Draws, Key, attempt};
 use crate::model::interior::Interior;
 use crate::model::kinds::made::{Frame, Made, Part, Site};
@@ -57,7 +58,7 @@ impl Built {
 pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, RealisationError> {
     let due = &list.due;
     let highest = due.iter().map(|one| one.rank).max().unwrap_or(0);
-    let domain = Frame::Unit(list.domain_bound(false)?);
+    let base = list.domain_bound(false)?;
     let mut built: Vec<Option<Built>> = due.iter().map(|_| None).collect();
     for rank in 0..=highest {
         let generation: Vec<usize> = (0..due.len()).filter(|at| due[*at].rank == rank).collect();
@@ -73,15 +74,27 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
                 .zip(&one.referents)
                 .filter_map(|(reference, other)| Some((reference, of(*other)?)))
                 .collect();
+            let room = room(model, due, one, &built);
+            let [lower, higher] = [
+                room.z[0] - model.domain.z[0],
+                room.z[1] - model.domain.z[1],
+            ];
+            // What bounds the domain bounds nothing of what comes into it from beyond.
+            let top = match &one.top {
+                Some(top) if one.is_top_of_domain => Some(top.lowered(-higher)),
+                other => other.clone(),
+            };
+            let lowest = Frame::Unit(base.lowered(-lower));
             let site = Site {
                 domain: &model.domain,
+                room: &room,
                 interior: one.parent.and_then(|parent| interiors.get(&parent)),
                 surface: list.surface(one.feature),
                 is_child: one.parent.is_some(),
-                frame: host.map_or(&domain, |host| &host.1.made.frame),
+                frame: host.map_or(&lowest, |host| &host.1.made.frame),
                 host: host.map(|(name, host)| (name, &host.made)),
                 others: &others,
-                top: one.top.as_ref(),
+                top: top.as_ref(),
                 nudge: one.nudge,
                 warp: None,
             };
@@ -96,6 +109,26 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
         }
     }
     Ok(built.into_iter().flatten().map(Built::conforming).collect())
+}
+
+/// The domain, and whatever comes to lie in it by the events that move an instance.
+fn room(model: &Model, due: &[Due], one: &Due, built: &[Option<Built>]) -> Domain {
+    let mut room = model.domain.clone();
+    let (mut low, mut high) = room.corners();
+    for event in one.events.iter().rev() {
+        let of_feature = due.iter().zip(built).rev().filter(|(due, _)| due.feature == *event);
+        for (_, made) in of_feature.filter(|(due, _)| due.takes_part) {
+            let event = made.as_ref().and_then(|made| made.made.event.as_ref());
+            if let Some(event) = event {
+                let [from, to] = event.motion.before([low, high]);
+                (low, high) = (low.min(from), high.max(to));
+            }
+        }
+    }
+    for (axis, range) in [&mut room.x, &mut room.y, &mut room.z].into_iter().enumerate() {
+        *range = [low[axis], high[axis]];
+    }
+    room
 }
 
 /// What those parents hold by which their children are placed.

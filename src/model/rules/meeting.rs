@@ -13,6 +13,8 @@
 //! - A gate g older than b, of a volume v younger than b that takes from g alone: b then meets a place
 //!   that g holds and must leave to v, so they meet only if b takes from g.
 //!
+//! The ground of a block is a gate of all that lies in it.
+//!
 //! In doubt, sides meet. Where a volume lies `above` another one, that one's side is a side of both.
 //!
 //! A volume *hides* another one where its body holds a place, or where it does not, if the other's side makes no
@@ -102,7 +104,10 @@ impl Rules {
         let takes_from_gate = |gate: usize| {
             (gate + 1..volume).contains(&other) && self.verdict(other, gate) == Verdict::Takes
         };
-        other > volume && self.covers(other, volume)
+        // Within its body, what lies in a block holds a place only if that block does; but so does the volume, if it lies there, too.
+        let block = self.volumes[other].within;
+        let is_in_block = block.is_none_or(|ground| self.lies_in(volume, ground));
+        other > volume && is_in_block && self.covers(other, volume)
             || past.directly && past.gate.is_some_and(takes_from_gate)
     }
 
@@ -119,7 +124,7 @@ impl Rules {
     fn covers(&self, v: usize, b: usize) -> bool {
         let volume = &self.volumes[v];
         volume.past.covers_since.is_some_and(|since| since <= b)
-            && volume.from.is_none_or(|from| self.descends(b, from))
+            && (volume.is_ground || volume.from.is_none_or(|from| self.descends(b, from)))
     }
 
     /// Fills in what the rules say of each volume's past.
@@ -132,13 +137,20 @@ impl Rules {
         let mut protections: Vec<Chosen> = Vec::new();
         for v in 0..self.volumes.len() {
             let volume = &self.volumes[v];
-            let gate = volume.parent.max(volume.from);
-            let takes_all = volume.parent.is_none()
-                && !volume.preserve
-                && volume.removes == Chosen::Everything
-                && protections.iter().all(|admitted| admitted.admits(v));
+            let gates = if volume.is_ground {
+                [volume.within, None, None]
+            } else {
+                [volume.parent, volume.from, volume.within]
+            };
+            let gate = gates.into_iter().max().flatten();
+            let takes_all = volume.outside.is_empty()
+                && (volume.is_ground
+                    || volume.parent.is_none()
+                        && !volume.preserve
+                        && volume.removes == Chosen::Everything
+                        && protections.iter().all(|admitted| admitted.admits(v)));
             let mut needs: Vec<usize> = Vec::new();
-            for gate in [volume.parent, volume.from].into_iter().flatten() {
+            for gate in gates.into_iter().flatten() {
                 needs.push(gate);
                 needs.extend(&self.volumes[gate].past.needs);
             }
@@ -160,8 +172,11 @@ impl Rules {
 
     /// See [`Past::covers_since`], for a volume that takes all that descends from its `from`, or everything.
     fn run_before(&self, v: usize) -> usize {
-        let Some(from) = self.volumes[v].from else {
-            return 0;
+        let volume = &self.volumes[v];
+        // The ground of its block is what it needs.
+        let in_block = volume.within.map_or(0, |ground| ground + 1);
+        let Some(from) = volume.from.filter(|_| !volume.is_ground) else {
+            return in_block;
         };
         // What descends from `from` keeps the place there; what takes everything leaves no trace of anything.
         let harmless = |&older: &usize| {
@@ -169,7 +184,7 @@ impl Rules {
                 || self.volumes[older].from.is_none()
                     && self.volumes[older].past.covers_since.is_some()
         };
-        v - (from + 1..v).rev().take_while(harmless).count()
+        in_block.max(v - (from + 1..v).rev().take_while(harmless).count())
     }
 }
 

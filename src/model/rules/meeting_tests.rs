@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::super::VolumeRules;
+use super::super::{BlockRules, VolumeRules};
 use super::*;
 use crate::model::values::selector::{Pick, Selector};
 
@@ -34,6 +34,7 @@ fn volume(name: &str, parent: Option<usize>, from: Option<usize>) -> VolumeRules
         above: None,
         piece_of: None,
         along: None,
+        block: BlockRules::default(),
     }
 }
 
@@ -47,6 +48,11 @@ fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
         prop::bool::weighted(0.15),
         prop::option::weighted(0.2, prop::collection::vec(0_usize..7, 0..5)),
         prop::option::weighted(0.2, prop::collection::vec(0_usize..7, 0..5)),
+        (
+            prop::bool::weighted(0.25),
+            prop::option::weighted(0.4, older()),
+            prop::option::weighted(0.1, older()),
+        ),
     );
     prop::collection::vec(one, 2..7).prop_map(|drawn| {
         let selector = |picks: Option<Vec<usize>>| {
@@ -56,14 +62,32 @@ fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
             })
         };
         let mut volumes = vec![volume("0", None, None)];
-        for (parent, from, above, preserve, removes, removed_by) in drawn {
+        let mut grounds: Vec<usize> = Vec::new();
+        for (parent, from, above, preserve, removes, removed_by, block) in drawn {
             let at = volumes.len();
             let older = |which: prop::sample::Index| which.index(at);
             // The background has no body.
             let above = above
                 .filter(|_| at > 1)
                 .map(|which| 1 + which.index(at - 1));
+            let (is_ground, within, outside) = block;
+            let ground = |which: Option<prop::sample::Index>| {
+                let which = which.filter(|_| !grounds.is_empty());
+                which.map(|which| grounds[which.index(grounds.len())])
+            };
+            let block = BlockRules {
+                is_ground,
+                within: ground(within),
+                outside: ground(outside).into_iter().collect(),
+                name: String::new(),
+            };
+            if is_ground {
+                grounds.push(at);
+            }
+            // The ground of a block takes everything there.
+            let above = above.filter(|_| !is_ground);
             volumes.push(VolumeRules {
+                block,
                 above,
                 preserve,
                 removes: selector(removes),

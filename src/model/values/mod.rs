@@ -5,6 +5,7 @@ pub(crate) mod bent;
 pub(crate) mod conform;
 pub(crate) mod distribution;
 pub(crate) mod ends;
+pub(crate) mod fault;
 pub(crate) mod facies;
 pub(crate) mod honours;
 pub(crate) mod junction;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::blocks::{Pieces, Unmoved};
 use super::rock::{Layers, Place, needs_fabric};
 use super::{Due, Listing};
 use crate::features::extent::Extent;
@@ -11,7 +12,7 @@ use crate::model::nature::{self, Nature};
 use crate::model::properties::VolumeProperties;
 use crate::model::realisation::making::Built;
 use crate::model::realisation::{Instance, RealisationError};
-use crate::model::rules::{BACKGROUND, VolumeRules};
+use crate::model::rules::{BACKGROUND, BlockRules, VolumeRules};
 use crate::model::selection::Selection;
 use crate::model::spec::{Feature, Model};
 use crate::model::values::selector::Selector;
@@ -77,6 +78,10 @@ impl Volumes {
             ends: Vec::with_capacity(built.len()),
             units: BTreeMap::new(),
             open: BACKGROUND,
+            pieces: BTreeMap::new(),
+            grounds: BTreeMap::new(),
+            copies: Vec::new(),
+            unmoved: BTreeMap::new(),
         };
         for (due, built) in list.due.iter().zip(built) {
             if due.takes_part {
@@ -91,23 +96,31 @@ impl Volumes {
 }
 
 /// Volumes while they are listed.
-struct Adding<'a> {
+pub(super) struct Adding<'a> {
     model: &'a Model,
     selection: &'a Selection,
     /// By feature: the base that it lies nowhere below.
     above: &'a BTreeMap<usize, usize>,
-    volumes: Volumes,
-    extent: &'a Extent,
+    pub(super) volumes: Volumes,
+    pub(super) extent: &'a Extent,
     /// By instance, by what its children are placed; empty if nothing asks how layers lie.
     frames: Vec<Frame>,
     /// By instance so far, its first volume; none of what takes no part.
-    firsts: Vec<Option<usize>>,
+    pub(super) firsts: Vec<Option<usize>>,
     /// By instance so far, what comes after its volumes.
     ends: Vec<usize>,
     /// The volumes of those bases so far that take part, by feature.
     units: BTreeMap<usize, usize>,
     /// The unit above the last base so far.
     open: usize,
+    /// The pieces of volumes that there are in several blocks.
+    pub(super) pieces: BTreeMap<usize, Pieces>,
+    /// The grounds of blocks, each with that of which it is a copy.
+    pub(super) grounds: BTreeMap<usize, usize>,
+    /// What was copied, block by block, with the copies.
+    pub(super) copies: Vec<BTreeMap<usize, usize>>,
+    /// Of volumes that have moved, where they come from.
+    pub(super) unmoved: BTreeMap<usize, Unmoved>,
 }
 
 impl Adding<'_> {
@@ -119,11 +132,18 @@ impl Adding<'_> {
             parts,
             frame,
             decisions,
+            event,
         } = built.made;
         let decisions = decisions.into_iter();
         self.volumes
             .decisions
             .extend(decisions.map(|text| format!("{} {text}", feature.id)));
+        if let Some(event) = event {
+            self.firsts.push(Some(self.volumes.rules.len()));
+            self.displace(due, &event, parts.into_iter().next())?;
+            self.ends.push(self.volumes.rules.len());
+            return Ok(());
+        }
         self.check_left_out(due, nature, &parts)?;
         let parent = due.parent.and_then(|parent| self.firsts[parent]);
         let above = self.above.get(&due.feature);
@@ -131,7 +151,7 @@ impl Adding<'_> {
         let rejected = match nature.volumes {
             nature::Volumes::One => u32::try_from(built.rejected.len()).unwrap_or(u32::MAX),
             // They are counted by feature alone.
-            nature::Volumes::Many { .. } => 0,
+            nature::Volumes::Many { .. } | nature::Volumes::None => 0,
         };
         let fabrics = self.fabrics(due, feature, &parts, &frame)?;
         let first = self.volumes.rules.len();
@@ -155,11 +175,6 @@ impl Adding<'_> {
             rules.from = from;
             rules.above = above;
             rules.preserve |= part.from == TakesFrom::ParentItself;
-            // Parts of one name are one volume.
-            rules.piece_of = self.volumes.rules[first..]
-                .iter()
-                .position(|other| other.name == rules.name)
-                .map(|at| first + at);
             if let Some(facies) = part.facies {
                 rules.facies.clone_from(&self.model.facies[facies].name);
             }
@@ -179,15 +194,24 @@ impl Adding<'_> {
             let rock = rock
                 .properties(self.model)
                 .map_err(impossible(&rules.name))?;
-            self.volumes.properties.push(rock);
-            self.volumes.rules.push(rules);
-            self.volumes.instances.push(Instance {
-                volume,
-                feature: due.feature,
-                body: part.body,
-                drawn: part.drawn,
-                rejected,
-            });
+            let in_blocks = self.in_blocks(&rules)?;
+            for mut rules in in_blocks {
+                // Parts of one name are one volume.
+                rules.piece_of = self.volumes.rules[first..]
+                    .iter()
+                    .position(|other| other.name == rules.name)
+                    .map(|at| first + at);
+                let volume = self.volumes.rules.len();
+                self.volumes.properties.push(rock.clone());
+                self.volumes.rules.push(rules);
+                self.volumes.instances.push(Instance {
+                    volume,
+                    feature: due.feature,
+                    body: part.body.clone(),
+                    drawn: part.drawn.clone(),
+                    rejected,
+                });
+            }
             if nature.is_base {
                 self.open = volume;
                 self.units.insert(due.feature, volume);
@@ -225,6 +249,14 @@ impl Adding<'_> {
                 for rules in &mut self.volumes.rules[first..self.ends[at]] {
                     rules.along = self.firsts[along];
                 }
+            }
+        }
+        // A copy goes along the copy in its own block.
+        for copies in &self.copies {
+            for (volume, copy) in copies {
+                let along = self.volumes.rules[*volume].along;
+                let along = along.and_then(|along| copies.get(&along));
+                self.volumes.rules[*copy].along = along.copied();
             }
         }
         self.volumes
@@ -286,12 +318,13 @@ impl Adding<'_> {
             above: None,
             piece_of: None,
             along: None,
+            block: BlockRules::default(),
         }
     }
 }
 
 /// The error of a volume that is refused for some reason.
-fn impossible(volume: &str) -> impl Fn(String) -> RealisationError + '_ {
+pub(super) fn impossible(volume: &str) -> impl Fn(String) -> RealisationError + '_ {
     move |reason| RealisationError::Impossible {
         volume: volume.to_owned(),
         reason,
@@ -314,5 +347,6 @@ fn background(model: &Model) -> VolumeRules {
         above: None,
         piece_of: None,
         along: None,
+            block: BlockRules::default(),
     }
 }

@@ -24,6 +24,7 @@ fn body(name: &str) -> VolumeRules {
         above: None,
         piece_of: None,
         along: None,
+        block: BlockRules::default(),
     }
 }
 
