@@ -2,21 +2,28 @@
 
 use std::sync::Arc;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use glam::{DVec2, DVec3, Vec3Swizzles};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
 use super::made::{Event, Made, Site, Wall};
 use crate::features::body::Body;
+use crate::features::fault_surface::FaultSurface;
+use crate::features::motion::{
+    Displacement, HeaveDesign, Law, Motion, MotionError, SlipDesign, Variation,
+};
+use crate::features::profile::Profile as Along;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::references::Reference;
 use crate::model::tree::{NodeId, quoted};
-use crate::model::values::fault::{FaultSurfaceFile, FaultSurfaceSpec, fault_surface};
-use crate::model::values::limits::{Limits, NOT_NEGATIVE};
-use crate::model::values::quantity::Quantity;
+use crate::model::values::fault::{FaultSurfaceSpec, fault_surface, fault_surface_schema};
+use crate::model::values::limits::{FRACTION, Limits, NOT_NEGATIVE, POSITIVE};
+use crate::model::values::profile::Profile;
+use crate::model::values::quantity::{Quantity, quantity};
 
 /// A fault: all that is older and lies above it has moved against what lies below.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,8 +143,23 @@ const RAKE: Limits = Limits {
     open: false,
     words: "must lie between -180 and 180 degrees: -90 is normal, 90 reverse, 0 left-lateral, 180 right-lateral",
 };
-/// A throw needs a slip this far from level at least (sine of its plunge).
-const LEAST_PLUNGE: f64 = 1e-3;
+/// Of lines of shear.
+const SHEAR: Limits = Limits {
+    low: -80.0,
+    high: 80.0,
+    open: false,
+    words: "must lie between -80 and 80 degrees from the vertical, above 0 towards the fault",
+};
+/// A throw needs a slip this far from level at least, a heave one this far from upright (sine of the angle).
+const LEAST_PART: f64 = 1e-3;
+/// Length of a tip line for each metre of its height (Nicol et al. 1996).
+const ASPECT: f64 = 2.15;
+/// How far a fault lies aside where contacts coincide, in steps, so that it moves with nothing else.
+const ASIDE: f64 = 0.618_033_988_749_895;
+/// How far its sheet reaches beyond the domain, in diagonals: it may be moved itself.
+const MARGIN: f64 = 0.5;
+/// Places along strike at which a function is asked.
+const ASKED: u32 = 33;
 
 impl Kind for FaultSpec {
     const NATURE: Nature = Nature {
@@ -174,6 +196,7 @@ impl Kind for FaultSpec {
         let surface = keys
             .need(file.surface, "surface", example)
             .and_then(|(node, Any)| fault_surface(keys, node));
+        let places = [place(&file.tip), place(&file.shear_deg)];
         let slip = keys.slip([
             ("throw", file.throw),
             ("displacement", file.displacement),
@@ -186,9 +209,11 @@ impl Kind for FaultSpec {
         let ends_on = good(file.ends_on, |node| keys.ends_on(node));
         let tolerance = keys.tolerance(file.tolerance);
         let none = || Quantity::Constant(0.0);
+        let (surface, slip) = (surface?, slip?);
+        keys.check_form(&surface, &slip, places)?;
         Some(Self {
-            surface: surface?,
-            slip: slip?,
+            surface,
+            slip: slip.1,
             rake_deg: rake.ok()?.unwrap_or(Quantity::Constant(-90.0)),
             tip: tip?,
             shear_deg: shear.ok()?.unwrap_or_else(none),
@@ -210,14 +235,14 @@ impl Kind for FaultSpec {
         };
         let share = draws.quantity(&self.footwall_share, "footwall_share")?;
         let along = slipped.along(&self.slip, draws)?;
-        let motion = |share: f64| match &self.tip {
-            None => slipped.motion(&along, share),
-            Some(tip) => slipped.towards_tip(tip, &along, share),
+        let tip = self.tip.as_ref().map(|tip| slipped.tip(tip, draws));
+        let tip = tip.transpose()?;
+        let hanging = slipped.motion(&along, tip.as_ref(), 1.0 - share)?;
+        let rest = if share > 0.0 {
+            Some(slipped.motion(&along, tip.as_ref(), -share)?)
+        } else {
+            None
         };
-        let [hanging, foot] = [motion(1.0 - share)?, motion(-share)?];
-        if let Some(tip) = &self.tip {
-            let _ = tip;
-        }
         let (low, high) = site.domain.corners();
         let margin = MARGIN * low.distance(high);
         let side = surface
@@ -226,7 +251,7 @@ impl Kind for FaultSpec {
         Ok(Made {
             event: Some(Event {
                 motion: hanging,
-                rest: (share > 0.0).then_some(foot),
+                rest,
                 is_plane: surface.dip().is_some(),
                 ends_on: self.ends_on.as_ref().map(|(_, wall)| *wall),
                 tolerance: self.tolerance,
@@ -241,22 +266,108 @@ impl Kind for FaultSpec {
 }
 
 impl Keys<'_, '_> {
-    fn slip(&self, throw: Option<Field<Any>>, displacement: Option<Field<Any>>) -> Option<Slip> {
-        if let (Some(_), Some(Field::Good(node, _))) = (&throw, &displacement) {
-            self.checker.reader.wrong(
-                *node,
-                format!("{} has both `throw` and `displacement`", self.draft.name),
-                "keep one: the throw is the vertical part of the displacement",
-            );
+    /// One of three ways to say how far it has moved.
+    fn slip(&self, given: [(&str, Option<Field<Any>>); 3]) -> Option<(NodeId, Slip)> {
+        let mut given: Vec<_> = given
+            .into_iter()
+            .filter_map(|(key, field)| Some((key, field?)))
+            .collect();
+        if given.len() > 1 {
+            let keys: Vec<String> = given.iter().map(|one| format!("`{}`", one.0)).collect();
+            if let Field::Good(node, _) = given[1].1 {
+                self.checker.reader.wrong(
+                    node,
+                    format!("{} has {}", self.draft.name, keys.join(" and ")),
+                    "keep one: throw and heave are the vertical part and that in plan of the displacement",
+                );
+            }
             return None;
         }
-        match displacement {
-            Some(field) => self
-                .quantity(field, "displacement", "", NOT_NEGATIVE)
-                .map(Slip::Displacement),
-            None => self
-                .quantity(throw.unwrap_or(Field::Missing), "throw", "throw = 20", NOT_NEGATIVE)
-                .map(Slip::Throw),
+        let (key, field) = given.pop().unwrap_or(("throw", Field::Missing));
+        let (node, profile) = self.profile(field, key, "throw = 20", NOT_NEGATIVE)?;
+        let slip = match key {
+            "throw" => Slip::Throw(profile),
+            "heave" => Slip::Heave(profile),
+            _ => Slip::Displacement(profile),
+        };
+        Some((node, slip))
+    }
+
+    fn tip(&mut self, node: NodeId) -> Option<Tip> {
+        let what = self.what("tip");
+        let reader = &self.checker.reader;
+        let file: TipFile = reader.table(node)?;
+        reader.close(node, &what);
+        let number = |at: NodeId, key: &str| {
+            quantity(reader, at, &format!("the {key} of {what}"), POSITIVE)
+        };
+        let length = reader.need(file.length, node, &what, "length", "length = 4000");
+        let length = length.and_then(|(at, Any)| number(at, "length"));
+        let height = good(file.height, |at| number(at, "height"));
+        let law = match file.profile.map(Field::good) {
+            None => Some(Law::WalshWatterson),
+            Some(None) => None,
+            Some(Some((at, word))) => match word.as_str() {
+                "walsh-watterson" => Some(Law::WalshWatterson),
+                "linear" => Some(Law::Linear),
+                "bell" => Some(Law::Bell),
+                _ => {
+                    reader.wrong(
+                        at,
+                        format!("there is no profile {} of displacement", quoted(&word)),
+                        "write \"walsh-watterson\", \"linear\" or \"bell\"",
+                    );
+                    None
+                }
+            },
+        };
+        Some(Tip {
+            length: length?,
+            height: height?,
+            law: law?,
+        })
+    }
+
+    /// What goes with planes alone, or with bent faults alone.
+    fn check_form(
+        &self,
+        surface: &FaultSurfaceSpec,
+        (slip_at, slip): &(NodeId, Slip),
+        [tip, shear]: [Option<NodeId>; 2],
+    ) -> Option<()> {
+        let is_plane = matches!(surface, FaultSurfaceSpec::Plane(_));
+        let name = &self.draft.name;
+        let wrong = |at: NodeId, message: String, remedy: &str| {
+            self.checker.reader.wrong(at, message, remedy);
+            None
+        };
+        if !is_plane && !matches!(slip, Slip::Heave(_)) {
+            return wrong(
+                *slip_at,
+                format!("the fault of {name} is bent: its throw differs from place to place"),
+                "write heave = …, how far the hanging wall has moved in plan",
+            );
+        }
+        if let Some(tip) = tip {
+            if !is_plane {
+                return wrong(tip, format!("{name} has a tip, but is no plane"), "leave it out");
+            }
+            let (Slip::Throw(profile) | Slip::Displacement(profile) | Slip::Heave(profile)) = slip;
+            if !matches!(profile, Profile::Quantity(_)) {
+                return wrong(
+                    tip,
+                    format!("{name} has a tip, and a displacement that varies along its strike"),
+                    "write one number, the displacement at the fault's point, or leave the tip out",
+                );
+            }
+        }
+        match shear {
+            Some(at) if is_plane => wrong(
+                at,
+                format!("{name} has a shear_deg, but slides on a plane, which shears nothing"),
+                "leave it out",
+            ),
+            _ => Some(()),
         }
     }
 
@@ -310,5 +421,188 @@ impl Keys<'_, '_> {
             "write how far what it moves may be from where it should be, in metres, as 0.01",
         );
         None
+    }
+}
+
+/// What a field that is there, and no defect, gives.
+fn good<T>(field: Option<Field<Any>>, read: impl FnOnce(NodeId) -> Option<T>) -> Option<Option<T>> {
+    match field {
+        None => Some(None),
+        Some(field) => field.good().and_then(|(node, Any)| read(node)).map(Some),
+    }
+}
+
+/// Where a field stands.
+fn place(field: &Option<Field<Any>>) -> Option<NodeId> {
+    match field {
+        Some(Field::Good(node, _)) => Some(*node),
+        _ => None,
+    }
+}
+
+/// How a hanging wall moves, without how far.
+struct Slipped {
+    surface: Arc<FaultSurface>,
+    /// In the fault's plane from its strike (rad).
+    rake: f64,
+    /// From the vertical (rad).
+    shear: f64,
+    /// How much farther it moves (m).
+    more: f64,
+    domain: [DVec3; 2],
+}
+
+impl Slipped {
+    /// By places along strike, how far it moves along its slip on a plane, or in plan on what is bent (m).
+    fn along(&self, slip: &Slip, draws: &mut Draws<'_>) -> Result<Vec<[f64; 2]>, Reason> {
+        let (name, profile) = match slip {
+            Slip::Throw(profile) => ("throw", profile),
+            Slip::Displacement(profile) => ("displacement", profile),
+            Slip::Heave(profile) => ("heave", profile),
+        };
+        let profile = draws.profile(profile, name)?;
+        let (sin, cos) = match self.surface.dip() {
+            Some(dip) => dip.sin_cos(),
+            None => (1.0, 1.0),
+        };
+        let of_slip = match slip {
+            Slip::Throw(_) => (self.rake.sin() * sin).abs(),
+            Slip::Displacement(_) => 1.0,
+            Slip::Heave(_) => (self.rake.sin() * cos).abs(),
+        };
+        if of_slip < LEAST_PART {
+            let (what, way) = match slip {
+                Slip::Throw(_) => ("throw", "level"),
+                _ => ("heave across its strike", "otherwise"),
+            };
+            return Err((
+                "no such slip",
+                format!("it has a {what}, but moves {way}; give its `displacement`"),
+            ));
+        }
+        let is_bent = self.surface.dip().is_none();
+        if is_bent && self.rake.cos().abs() > LEAST_PART {
+            let message = format!(
+                "its rake is {:.1} degrees, but what is bent slides across its strike alone; write -90 or 90",
+                self.rake.to_degrees()
+            );
+            return Err(("rake of what is bent", message));
+        }
+        let [from, to] = self.strike();
+        let at = |fraction: f64| from + (to - from) * fraction;
+        let value = |fraction: f64| profile.at(fraction) / of_slip;
+        let fractions: Vec<f64> = match &profile {
+            Along::Constant(_) => vec![0.0],
+            Along::Along(pairs) => pairs.iter().map(|pair| pair.0).collect(),
+            Along::Function(_) => (0..ASKED).map(|k| f64::from(k) / f64::from(ASKED - 1)).collect(),
+        };
+        let ends = fractions.iter().map(|fraction| value(*fraction));
+        if ends.clone().any(|slip| slip > 0.0)
+            && let Some(none) = fractions.iter().find(|fraction| !(value(**fraction) > 0.0))
+        {
+            return Err((
+                "tip in the domain",
+                format!(
+                    "its {name} is {} m at the fraction {none} of its strike; a fault that ends inside the domain is not modelled: write a {name} above 0 everywhere",
+                    profile.at(*none)
+                ),
+            ));
+        }
+        let places = fractions.iter().map(|fraction| [at(*fraction), value(*fraction) + self.more]);
+        Ok(places.collect())
+    }
+
+    /// Between which places along strike the domain lies (m).
+    fn strike(&self) -> [f64; 2] {
+        let (strike, through) = (self.surface.strike(), self.surface.through().xy());
+        let [low, high] = self.domain;
+        let corners = [low.xy(), high.xy(), DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)];
+        let along = corners.map(|corner| (corner - through).dot(strike));
+        let [least, most] = [f64::min, f64::max].map(|pick| along.into_iter().reduce(pick));
+        [least.unwrap_or(0.0), most.unwrap_or(0.0)]
+    }
+
+    /// The semi-axes of a tip line, and how displacement falls towards it.
+    fn tip(&self, tip: &Tip, draws: &mut Draws<'_>) -> Result<([f64; 2], Law), Reason> {
+        let length = draws.quantity(&tip.length, "tip.length")?;
+        let height = match &tip.height {
+            Some(height) => draws.quantity(height, "tip.height")?,
+            None => length / ASPECT,
+        };
+        let semi_axes = [0.5 * length, 0.5 * height];
+        // An ellipse holds a polygon if it holds its corners.
+        if let Some((place, r)) = self.farthest(semi_axes).filter(|farthest| farthest.1 >= 1.0) {
+            return Err((
+                "tip in the domain",
+                format!(
+                    "its tip line lies in the domain, near ({:.1}, {:.1}, {:.1}); a fault that ends inside the domain is not modelled: make the tip {:.2} times as large or more",
+                    place.x, place.y, place.z, 1.01 * r
+                ),
+            ));
+        }
+        Ok((semi_axes, tip.law))
+    }
+
+    /// The place of the fault in the domain that is farthest from its point, in semi-axes of an ellipse.
+    fn farthest(&self, [length, height]: [f64; 2]) -> Option<(DVec3, f64)> {
+        let (through, down) = (self.surface.through(), self.surface.down_dip()?);
+        let (normal, strike) = (self.surface.normal(through), self.surface.strike().extend(0.0));
+        let [low, high] = self.domain;
+        let corner = |k: usize| {
+            let part = |axis: usize| if k >> axis & 1 == 1 { high } else { low }[axis];
+            DVec3::new(part(0), part(1), part(2))
+        };
+        let edges = (0..8).flat_map(|k| (0..3).map(move |axis| (k, k ^ (1 << axis))));
+        let crossing = |(a, b): (usize, usize)| {
+            let (a, b) = (corner(a), corner(b));
+            let [da, db] = [a, b].map(|p| (p - through).dot(normal));
+            (da * db <= 0.0 && da != db).then(|| a + (b - a) * (da / (da - db)))
+        };
+        let places = edges.filter_map(crossing).map(|p| {
+            let off = p - through;
+            (p, (off.dot(strike) / length).hypot(off.dot(down) / height))
+        });
+        places.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The motion of a side that has a share of the slip, with its sign.
+    fn motion(
+        &self,
+        along: &[[f64; 2]],
+        tip: Option<&([f64; 2], Law)>,
+        share: f64,
+    ) -> Result<Motion, Reason> {
+        let wrong = |error: MotionError| ("no motion", error.to_string());
+        let none = || ("no motion", "its displacement is no number".to_owned());
+        if self.surface.dip().is_some() {
+            let displacement = match tip {
+                None => Displacement::AlongStrike(Variation::through(along).ok_or_else(none)?),
+                Some((semi_axes, law)) => Displacement::Elliptic {
+                    most: along[0][1],
+                    centre: [0.0; 2],
+                    semi_axes: *semi_axes,
+                    law: *law,
+                },
+            };
+            let design = SlipDesign {
+                surface: Arc::clone(&self.surface),
+                rake: self.rake,
+                displacement,
+                share,
+                reach: None,
+            };
+            return design.build().map_err(wrong);
+        }
+        // Down the dip the hanging wall moves away from the footwall.
+        let way = -self.rake.sin().signum() * share;
+        let along: Vec<[f64; 2]> = along.iter().map(|[at, heave]| [*at, heave * way]).collect();
+        let design = HeaveDesign {
+            surface: Arc::clone(&self.surface),
+            azimuth: None,
+            heave: Variation::through(&along).ok_or_else(none)?,
+            shear: self.shear,
+            within: self.domain,
+        };
+        design.build().map_err(wrong)
     }
 }

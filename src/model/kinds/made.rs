@@ -159,6 +159,8 @@ pub(crate) struct Made {
 pub(crate) struct Event {
     /// Where what was at a place is afterwards: on one side of the instance's part, or everywhere if it has none.
     pub(crate) motion: Motion,
+    /// The same of what lies on the other side, if that moves, too.
+    pub(crate) rest: Option<Motion>,
     /// Whether the part is one side of a plane.
     pub(crate) is_plane: bool,
     /// Of a fault that ends on another one, the first that it refers to: on which side of that it lies.

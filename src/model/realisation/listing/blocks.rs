@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::Due;
 use super::volumes::{Adding, impossible};
 use crate::features::body::Body;
-use crate::features::motion::Motions;
+use crate::features::motion::{Motion, Motions};
 use crate::model::kinds::made::{Event, Part, Wall};
 use crate::model::realisation::{Instance, RealisationError};
 use crate::model::rules::{BACKGROUND, BlockRules, VolumeRules};
@@ -105,13 +105,19 @@ impl Adding<'_> {
     /// Moves every body.
     fn move_all(&mut self, due: &Due, event: &Event) -> Result<(), RealisationError> {
         let all: Vec<usize> = (1..self.volumes.rules.len()).collect();
-        let moved = self.moved(&all, event)?;
-        for (volume, moved) in all.into_iter().zip(moved.all) {
-            self.volumes.instances[volume - 1].body = moved.body;
-            self.unmoved.insert(volume, moved.from);
-        }
-        self.told(due, moved.deviation);
+        let moved = self.moved(&all, event, &event.motion)?;
+        let deviation = moved.deviation;
+        self.put(&all, moved);
+        self.told(due, deviation);
         Ok(())
+    }
+
+    /// Bodies where they have moved to, in the place of those that they were.
+    fn put(&mut self, volumes: &[usize], moved: Moved) {
+        for (volume, moved) in volumes.iter().zip(moved.all) {
+            self.volumes.instances[volume - 1].body = moved.body;
+            self.unmoved.insert(*volume, moved.from);
+        }
     }
 
     /// Parts what is older in two blocks.
@@ -123,11 +129,16 @@ impl Adding<'_> {
         let first = self.volumes.rules.len();
         for root in roots {
             let block = self.block(root, &outside);
-            let moved = self.moved(&block.members, event)?;
+            let moved = self.moved(&block.members, event, &event.motion)?;
             deviation = deviation.max(moved.deviation);
             let ground = self.add_ground(due, &part, root, &outside, &own);
             self.grounds.insert(ground, first);
             self.copy(&block, ground, moved.all, event, &part.body, &own);
+            if let Some(rest) = &event.rest {
+                let moved = self.moved(&block.members, event, rest)?;
+                deviation = deviation.max(moved.deviation);
+                self.put(&block.members, moved);
+            }
             parted.push(root);
             parted.extend(block.members);
         }
@@ -315,7 +326,12 @@ impl Adding<'_> {
             })
     }
 
-    fn moved(&self, volumes: &[usize], event: &Event) -> Result<Moved, RealisationError> {
+    fn moved(
+        &self,
+        volumes: &[usize],
+        event: &Event,
+        motion: &Motion,
+    ) -> Result<Moved, RealisationError> {
         let (low, high) = (self.extent.low(), self.extent.high());
         let usual = USUAL_TOLERANCE * low.distance(high);
         let tolerance = event.tolerance.unwrap_or(usual);
@@ -329,7 +345,7 @@ impl Adding<'_> {
             };
             let from = Unmoved {
                 body: Arc::clone(&unmoved.body),
-                motions: unmoved.motions.then(event.motion.clone()),
+                motions: unmoved.motions.then(motion.clone()),
             };
             let moved = from.body.moved(&from.motions, [low, high], tolerance);
             let moved = moved.map(|(body, deviation)| (MovedBody { body, from }, deviation));
