@@ -233,6 +233,16 @@ impl Trough {
         ])
     }
 
+    /// The same trough elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: DVec3) -> Self {
+        Self {
+            base: self.base.moved(by),
+            top: self.top.moved(by),
+            sections: self.sections.clone(),
+        }
+    }
+
     /// See [`Body::nudged`]. Sections stay flat and upright, and a level top level.
     fn nudged(&self, nudge: &Nudge) -> Result<Self, SurfaceError> {
         let net = self.base.net();

@@ -3,12 +3,15 @@
 use glam::DVec3;
 
 use super::*;
+use crate::features::body::Role;
+use crate::features::displace::evened;
 use crate::features::lag::LagDesign;
 use crate::features::lobe::LobeDesign;
 use crate::features::profile::Profile;
 use crate::features::reach::tests::{along, design, meander};
 use crate::features::scour::{PitAndWing, ScourDesign, constant_area};
 use crate::features::trajectory::Trajectory;
+use crate::nurbs::{KnotVector, Surface};
 
 fn scour() -> Shell {
     let width = Profile::Along(vec![(0.0, 20.0), (1.0, 60.0)]);
@@ -87,7 +90,7 @@ fn a_plane_is_followed_exactly_by_any_net() {
     for shell in [scour(), lobe(), lag()] {
         let made = conform(&shell, &to(&plane, 2.0), 1e-9).unwrap();
         assert!(made.deviation < 1e-11, "{}", made.deviation);
-        let same = evened(shell.sheets().to_vec(), 1e-6).unwrap();
+        let same = evened(shell.sheets().to_vec(), 1e-6, LEAST_DEGREE).unwrap();
         let most =
             |sheets: &[(Role, Surface)]| sheets.iter().map(|one| one.1.net().len()).sum::<usize>();
         assert!(
@@ -177,8 +180,15 @@ fn control_points_moved_by_a_parabola_would_be_off_and_interpolation_is_not() {
     let middle = by_points.point(0.5, 0.5);
     assert!((middle.z - a * middle.x * middle.x - a * h * h / 3.0).abs() < 1e-12);
     let height = |at: DVec2| Some(a * at.x * at.x);
-    let (interpolated, deviation) = displaced(&flat, &to(&height, 0.0)).unwrap();
-    assert!(deviation < 1e-13, "{deviation}");
+    let target = to(&height, 0.0);
+    let displacement = Displacement {
+        by: &|place| target.shift(place),
+        tolerance: &|_| 1e-12,
+        degree: 1,
+    };
+    let made = displacement.of(&[(Role::Skin, flat)]).unwrap();
+    assert!(made.deviation < 1e-13, "{}", made.deviation);
+    let interpolated = &made.sheets[0].1;
     assert!((interpolated.point(0.5, 0.5).z - a * middle.x * middle.x).abs() < 1e-13);
 }
 

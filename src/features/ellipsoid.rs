@@ -169,6 +169,16 @@ impl Ellipsoid {
         })
     }
 
+    /// The same ellipsoid elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: DVec3) -> Self {
+        Self {
+            skin: self.skin.moved(by),
+            center: self.center + by,
+            axes: self.axes,
+        }
+    }
+
     /// Whether it holds a point. On its surface that is a matter of rounding.
     pub fn contains(&self, point: DVec3) -> bool {
         self.unit(point).length_squared() < 1.0

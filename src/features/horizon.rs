@@ -229,6 +229,20 @@ impl Horizon {
         Self::above_plane(self.lattices().to_vec(), through - by * DVec3::Z, slope)
     }
 
+    /// The horizon elsewhere (m).
+    #[must_use]
+    pub fn moved(&self, by: DVec3) -> Self {
+        if let Shape::Level(level) = self.shape {
+            return Self {
+                shape: Shape::Level(level + by.z),
+            };
+        }
+        let (through, slope) = self.trend();
+        let lattices = self.lattices().iter();
+        let lattices = lattices.map(|lattice| Arc::new(lattice.moved(by.xy())));
+        Self::above_plane(lattices.collect(), through + by, slope)
+    }
+
     /// The horizon higher by what another one tells for every place (m).
     #[must_use]
     pub fn plus(&self, more: &Self) -> Self {

@@ -240,6 +240,11 @@ impl HorizonSheet {
         &self.sheet
     }
 
+    /// Least and greatest elevation of the sheet's control points (m).
+    pub fn heights(&self) -> [f64; 2] {
+        self.heights
+    }
+
     /// Its elevation (m).
     pub fn height(&self, at: DVec2) -> f64 {
         let part = (at - self.low) / self.extent;

@@ -26,21 +26,30 @@ pub struct Swept {
 impl Swept {
     /// Sheets that are one surface, and what they pass over when they are moved: nowhere may they pass the same place twice.
     pub fn new(name: &'static str, sheets: Vec<Surface>, by: DVec3) -> Result<Self, ShellError> {
-        let mut closed: Vec<(Role, Surface)> = Vec::new();
-        for sheet in &sheets {
-            closed.push((Role::Open(name), sheet.clone()));
-        }
-        for border in outer_borders(&sheets) {
+        let role = Role::Open(name);
+        Self::with_roles(sheets.into_iter().map(|sheet| (role, sheet)).collect(), by)
+    }
+
+    /// The same of sheets with roles of their own.
+    pub(super) fn with_roles(sheets: Vec<(Role, Surface)>, by: DVec3) -> Result<Self, ShellError> {
+        let bare: Vec<Surface> = sheets.iter().map(|sheet| sheet.1.clone()).collect();
+        let mut closed = sheets;
+        for border in outer_borders(&bare) {
             let beyond = border.moved(by);
             closed.push((Role::Hidden, Surface::ruled(&border, &beyond)?));
         }
-        for sheet in &sheets {
+        for sheet in &bare {
             closed.push((Role::Hidden, sheet.moved(by)));
         }
         Ok(Self {
-            sheets,
+            sheets: bare,
             shell: Shell::new(closed)?,
         })
+    }
+
+    /// The closed shell.
+    pub fn shell(&self) -> &Shell {
+        &self.shell
     }
 
     /// The side that they bound.

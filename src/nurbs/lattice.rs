@@ -209,6 +209,15 @@ impl Lattice {
         scaled
     }
 
+    /// The same function elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: DVec2) -> Self {
+        let mut moved = self.clone();
+        moved.low += by;
+        moved.high += by;
+        moved
+    }
+
     /// The value at a place.
     pub fn value(&self, at: DVec2) -> f64 {
         let (x, y) = (self.weights(0, at.x), self.weights(1, at.y));
