@@ -63,8 +63,8 @@ pub enum Slip {
 pub struct Tip {
     /// Along strike (m).
     pub length: Quantity,
-    /// Down dip (m).
-    pub height: Quantity,
+    /// Down dip (m); by the length if absent.
+    pub height: Option<Quantity>,
     /// How the displacement falls towards it.
     pub law: Law,
 }
