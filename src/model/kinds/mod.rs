@@ -12,7 +12,9 @@ pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
 pub(crate) mod horizon;
 pub(crate) mod keys;
+mod event;
 pub(crate) mod fault;
+pub(crate) mod fold;
 mod kind;
 pub(crate) mod lag;
 pub(crate) mod levee;
@@ -24,8 +26,10 @@ pub(crate) mod placed;
 pub(crate) mod plug;
 pub(crate) mod point_bars;
 pub(crate) mod scour;
+pub(crate) mod shear;
 pub(crate) mod sheet;
 pub(crate) mod splay;
+pub(crate) mod tilt;
 pub(crate) mod trend;
 mod unit;
 
@@ -42,6 +46,7 @@ use clinoform::ClinoformSpec;
 use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
 use fault::FaultSpec;
+use fold::FoldSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use kind::Kind;
@@ -54,8 +59,10 @@ use meander_belt::MeanderBeltSpec;
 use plug::PlugSpec;
 use point_bars::PointBarsSpec;
 use scour::ScourSpec;
+use shear::ShearSpec;
 use sheet::SheetSpec;
 use splay::SplaySpec;
+use tilt::TiltSpec;
 use trend::TrendSpec;
 
 /// What the program's lists need of a kind, without its type.
@@ -198,6 +205,12 @@ kinds! {
     Trend(TrendSpec),
     /// What lies above it has moved against what lies below.
     Fault(FaultSpec),
+    /// All that is older has moved along axial planes.
+    Fold(FoldSpec),
+    /// All that is older has turned about a level axis.
+    Tilt(TiltSpec),
+    /// Planes of all that is older have slid over one another.
+    Shear(ShearSpec),
 }
 
 impl FeatureKind {
