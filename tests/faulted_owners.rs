@@ -25,7 +25,7 @@ const HIGH: DVec3 = DVec3::new(400.0, 300.0, 0.0);
 const HEAD: &str = "name = \"history\"\nseed = 5\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-100, 0]\nfacies = \"mud\"\n[facies.mud]\n[facies.sand]\n";
 
 fn model(text: &str) -> Model {
-    let source = Source::new(text, Format::Toml).unwrap();
+    let source = Source::from_text("history", text, Format::Toml);
     Model::check(&source).unwrap()
 }
 

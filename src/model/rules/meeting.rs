@@ -124,6 +124,7 @@ impl Rules {
     fn covers(&self, v: usize, b: usize) -> bool {
         let volume = &self.volumes[v];
         volume.past.covers_since.is_some_and(|since| since <= b)
+            && volume.within.is_none_or(|ground| self.lies_in(b, ground))
             && (volume.is_ground || volume.from.is_none_or(|from| self.descends(b, from)))
     }
 
@@ -159,7 +160,8 @@ impl Rules {
             let past = Past {
                 gate,
                 needs,
-                directly: gate.is_some_and(|gate| volume.from == gate.into() && !is_parent[gate]),
+                directly: !volume.is_ground
+                    && gate.is_some_and(|gate| volume.from == gate.into() && !is_parent[gate]),
                 covers_since: takes_all.then(|| self.run_before(v)),
             };
             if volume.removed_by != Chosen::Everything && !protections.contains(&volume.removed_by)
@@ -173,16 +175,21 @@ impl Rules {
     /// See [`Past::covers_since`], for a volume that takes all that descends from its `from`, or everything.
     fn run_before(&self, v: usize) -> usize {
         let volume = &self.volumes[v];
-        // The ground of its block is what it needs.
-        let in_block = volume.within.map_or(0, |ground| ground + 1);
+        // It takes nothing that has left its block.
+        let in_block = volume.within.map_or(0, |ground| {
+            let is_in = |older: &usize| self.lies_in(*older, ground);
+            v - (ground + 1..v).rev().take_while(is_in).count()
+        });
         let Some(from) = volume.from.filter(|_| !volume.is_ground) else {
             return in_block;
         };
         // What descends from `from` keeps the place there; what takes everything leaves no trace of anything.
         let harmless = |&older: &usize| {
+            let one = &self.volumes[older];
             self.descends(older, from)
-                || self.volumes[older].from.is_none()
-                    && self.volumes[older].past.covers_since.is_some()
+                || one.from.is_none()
+                    && (one.within.is_none() || one.within == volume.within)
+                    && one.past.covers_since.is_some()
         };
         in_block.max(v - (from + 1..v).rev().take_while(harmless).count())
     }

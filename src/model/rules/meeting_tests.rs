@@ -84,15 +84,16 @@ fn any_rules() -> impl Strategy<Value = Vec<VolumeRules>> {
             if is_ground {
                 grounds.push(at);
             }
-            // The ground of a block takes everything there.
-            let above = above.filter(|_| !is_ground);
+            // The ground of a block takes everything there, and lies in nothing else.
+            let [parent, from, above] = [parent.map(older), from.map(older), above]
+                .map(|other| other.filter(|_| !is_ground));
             volumes.push(VolumeRules {
                 block,
                 above,
                 preserve,
                 removes: selector(removes),
                 removed_by: selector(removed_by),
-                ..volume(&at.to_string(), parent.map(older), from.map(older))
+                ..volume(&at.to_string(), parent, from)
             });
         }
         volumes
