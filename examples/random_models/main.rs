@@ -1,7 +1,8 @@
 //! Writes random models, the same for the same seed: what `script/random` builds.
 //!
 //! ```text
-//! random_models KIND SEED              a model of a kind (generic, coincident, well-tops, sedimentary, round-sedimentary, referring), as TOML
+//! random_models KIND SEED              a model of a kind (generic, coincident, well-tops, sedimentary, round-sedimentary, referring, faulted, round-faulted,
+//!                                          folded), as TOML
 //! random_models KIND SEED --of A,B     the same with features of these kinds alone
 //! random_models KIND SEED --plain      one that leaves no draw to the program
 //! random_models KIND SEED --as WAY     that plain model thousandfold, thousandth, turned or mirrored
@@ -19,7 +20,7 @@ use std::io::Write;
 use models::{Kind, Way};
 
 const USAGE: &str = "random_models KIND SEED [--plain | --as WAY | --of KINDS], or random_models volumes FILE; kinds: generic, \
-     coincident, well-tops, sedimentary, round-sedimentary, referring; ways: thousandfold, thousandth, turned, mirrored";
+     coincident, well-tops, sedimentary, round-sedimentary, referring, faulted, round-faulted, folded; ways: thousandfold, thousandth, turned, mirrored";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();

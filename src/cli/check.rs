@@ -10,7 +10,7 @@ use super::print;
 use crate::export::data::DataEntry;
 use crate::export::wells::entries::{tops, tops_in_words};
 use crate::model::rules::{Rules, Verdict, VolumeRules};
-use crate::model::{HorizonSurface, Quantity, meshing, remarks};
+use crate::model::{Feature, FeatureKind, HorizonSurface, Model, Quantity, meshing, remarks};
 
 /// Report every defect of a model file, and how its rules resolve.
 ///
@@ -71,7 +71,11 @@ fn resolve(volumes: &[VolumeRules], rules: &Rules) -> Vec<Line> {
     let mut features: Vec<&str> = Vec::new();
     let mut of: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     let wholes = volumes.iter().enumerate().skip(1);
-    for (volume, rules) in wholes.filter(|(_, rules)| rules.piece_of.is_none()) {
+    // What is in a block is as it is outside of it.
+    let is_told = |(_, rules): &(usize, &VolumeRules)| {
+        rules.piece_of.is_none() && rules.block.within.is_none() && !rules.block.is_ground
+    };
+    for (volume, rules) in wholes.filter(is_told) {
         let own = of.entry(&rules.feature).or_default();
         if own.is_empty() {
             features.push(&rules.feature);
@@ -220,6 +224,13 @@ fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
     for line in lines {
         out.push_str(&paragraph(line));
     }
+    for event in events(model) {
+        let _ = writeln!(out, "\n{event}");
+    }
+    let blocks = blocks(&loaded.realisation.volumes);
+    if !blocks.is_empty() {
+        let _ = writeln!(out, "  blocks: {}", blocks.join(", "));
+    }
     for (name, file) in model.files() {
         let _ = writeln!(out, "\ndata of {name}: {}", file.described());
     }
@@ -240,6 +251,31 @@ fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
         let _ = writeln!(out, "\nmeshing: {advice}");
     }
     out
+}
+
+/// What moves what is older, in words, the oldest first.
+fn events(model: &Model) -> Vec<String> {
+    let events = model.features.iter().filter(|one| one.enabled && one.kind.nature().is_event());
+    let words = |event: &Feature| {
+        let does = match &event.kind {
+            FeatureKind::Fault(_) => "parts all that is older in blocks, and moves its hanging wall",
+            _ => "moves all that is older",
+        };
+        format!("{} ({}): {does}", event.id, event.kind.name())
+    };
+    events.map(words).collect()
+}
+
+/// The blocks that faults part.
+fn blocks(volumes: &[VolumeRules]) -> Vec<&str> {
+    let mut blocks: Vec<&str> = Vec::new();
+    for volume in volumes {
+        let block = volume.block.name.as_str();
+        if !block.is_empty() && !blocks.contains(&block) {
+            blocks.push(block);
+        }
+    }
+    blocks
 }
 
 fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Value {
@@ -277,6 +313,8 @@ fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Valu
         .map(|(of, file)| DataEntry::of(of, file))
         .collect();
     serde_json::json!({ "model": loaded.model.name, "defects": [], "features": features,
+        "events": events(&loaded.model),
+        "blocks": blocks(&loaded.realisation.volumes),
         "decisions": loaded.realisation.decisions, "notes": notes,
         "remarks": remarks,
         "data": data,

@@ -203,13 +203,28 @@ pub fn say_empty(
         .flat_map(|remark| remark.volumes.iter().copied())
         .collect();
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for volume in volumes.iter().filter(|one| one.piece_of.is_none()) {
+    let is_counted =
+        |one: &&VolumeRules| one.piece_of.is_none() && one.block.within.is_none();
+    for volume in volumes.iter().filter(is_counted) {
         *counts.entry(&volume.feature).or_default() += 1;
     }
     // By feature, in the order of their first volumes.
     let mut features: Vec<(&str, Vec<usize>)> = Vec::new();
     let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+    let is_empty: BTreeSet<usize> = empty.iter().copied().collect();
+    // By name, whether some block has something of what faults part.
+    let mut in_blocks: BTreeMap<&str, bool> = BTreeMap::new();
+    for (volume, rules) in volumes.iter().enumerate() {
+        if !rules.block.name.is_empty() && rules.piece_of.is_none() {
+            *in_blocks.entry(rules.unfaulted_name()).or_default() |= !is_empty.contains(&volume);
+        }
+    }
     for volume in empty {
+        let rules = &volumes[*volume];
+        let is_elsewhere = in_blocks.get(rules.unfaulted_name()) == Some(&true);
+        if is_elsewhere || rules.block.within.is_some() || rules.block.is_ground {
+            continue;
+        }
         if divided.contains(volume) || is_told.contains(volume) {
             continue;
         }

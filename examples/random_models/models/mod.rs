@@ -4,6 +4,7 @@
 mod bodies;
 mod coincident;
 mod draws;
+mod faulted;
 mod generic;
 mod referring;
 mod sedimentary;
@@ -35,6 +36,12 @@ pub enum Kind {
     RoundSedimentary,
     /// Features that refer to others, and horizons from control nets.
     Referring,
+    /// A conjugate pair of faults through beds and bodies.
+    Faulted,
+    /// The same in round numbers: throws as thick as beds are, faults through corners.
+    RoundFaulted,
+    /// Beds and bodies that a fold bends, overhanging or not.
+    Folded,
 }
 
 impl FromStr for Kind {
@@ -48,8 +55,11 @@ impl FromStr for Kind {
             "sedimentary" => Ok(Self::Sedimentary),
             "round-sedimentary" => Ok(Self::RoundSedimentary),
             "referring" => Ok(Self::Referring),
+            "faulted" => Ok(Self::Faulted),
+            "round-faulted" => Ok(Self::RoundFaulted),
+            "folded" => Ok(Self::Folded),
             _ => Err(format!(
-                "there is no kind `{word}`; there are generic, coincident, well-tops, sedimentary, round-sedimentary and referring"
+                "there is no kind `{word}`; there are generic, coincident, well-tops, sedimentary, round-sedimentary, referring, faulted, round-faulted and folded"
             )),
         }
     }
@@ -64,6 +74,9 @@ pub fn model(kind: Kind, seed: u64, plain: bool) -> Table {
         Kind::Sedimentary => 4,
         Kind::RoundSedimentary => 5,
         Kind::Referring => 6,
+        Kind::Faulted => 7,
+        Kind::RoundFaulted => 8,
+        Kind::Folded => 9,
     };
     let mut draws = Draws::new(seed, salt, plain);
     let mut model = match kind {
@@ -73,6 +86,9 @@ pub fn model(kind: Kind, seed: u64, plain: bool) -> Table {
         Kind::Sedimentary => sedimentary::model(&mut draws),
         Kind::RoundSedimentary => sedimentary::round(&mut draws),
         Kind::Referring => referring::model(&mut draws),
+        Kind::Faulted => faulted::model(&mut draws),
+        Kind::RoundFaulted => faulted::round(&mut draws),
+        Kind::Folded => faulted::folded(&mut draws),
     };
     let name = format!("{kind:?} {seed}");
     model.insert("name".to_owned(), name.into());
