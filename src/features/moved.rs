@@ -10,7 +10,7 @@
 //! Sides must be large enough before they are moved: horizons are everywhere, of others the caller makes sheets for
 //! [`Motions::before`] of the domain.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
@@ -80,6 +80,31 @@ pub fn sheets(
     Ok((made.sheets, made.deviation))
 }
 
+/// What motions add to heights, for all horizons that they move: each is made once.
+#[derive(Debug, Default)]
+pub struct Reliefs(Mutex<Vec<(ReliefKey, Arc<OnceLock<Relief>>)>>);
+
+/// A motion, the plan in which it is asked for, and the tolerance.
+type ReliefKey = (Motion, [DVec2; 2], f64);
+type Relief = Result<(Horizon, f64), ReliefError>;
+
+impl Reliefs {
+    fn get(&self, key: ReliefKey, make: impl FnOnce() -> Relief) -> Relief {
+        // Whoever panicked while holding the list has left it whole.
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let place = known.iter().position(|one| one.0 == key);
+        let relief = if let Some(place) = place {
+            Arc::clone(&known[place].1)
+        } else {
+            let relief = Arc::new(OnceLock::new());
+            known.push((key, Arc::clone(&relief)));
+            relief
+        };
+        drop(known);
+        relief.get_or_init(make).clone()
+    }
+}
+
 impl Body {
     /// The body after motions, in a domain, and how far its sheets are from where they should be at most (m): no more than a tolerance.
     pub fn moved(
@@ -87,6 +112,7 @@ impl Body {
         motions: &Motions,
         domain: [DVec3; 2],
         tolerance: f64,
+        reliefs: &Reliefs,
     ) -> Result<(Self, f64), MoveError> {
         if motions.is_none() {
             return Ok((self.clone(), 0.0));
@@ -101,7 +127,7 @@ impl Body {
             }
         }
         if let Self::Side(side) = self {
-            let (side, deviation) = side.after(motions, domain, tolerance)?;
+            let (side, deviation) = side.after(motions, domain, tolerance, reliefs)?;
             return Ok((Self::Side(Arc::new(side)), deviation));
         }
         let (moved, deviation) = sheets(&self.sheets()?, motions, &|_| tolerance)?;
@@ -116,17 +142,19 @@ impl Side {
         motions: &Motions,
         domain: [DVec3; 2],
         tolerance: f64,
+        reliefs: &Reliefs,
     ) -> Result<(Self, f64), MoveError> {
         if motions.is_none() || self.is_everywhere() {
             return Ok((Self::clone(self), 0.0));
         }
         if let Some(sheet) = self.plan() {
-            let moved = heights(sheet.horizon(), motions, domain, tolerance)?;
+            let moved = heights(sheet.horizon(), motions, domain, tolerance, reliefs)?;
             if let Some((horizon, deviation)) = moved {
                 return Ok((above(self.role(), horizon, domain)?, deviation));
             }
         }
-        let shell = self.closed(motions.before(domain))?;
+        let along = motions.all().iter().find_map(Motion::bends_along);
+        let shell = self.closed(motions.before(domain), along)?;
         let size = domain[1] - domain[0];
         let roughly = tolerance.max(ROUGHLY * FAR * size.min_element());
         let role = self.role();
@@ -144,11 +172,34 @@ impl Side {
         Ok((Self::new(role, Arc::new(open), ends), deviation))
     }
 
-    /// A closed shell of what it holds in a box, and beyond it: sheets of its own role, and hidden ones.
-    fn closed(&self, [low, high]: [DVec3; 2]) -> Result<Shell, MoveError> {
+    /// A closed shell of what it holds in a box, and beyond it: sheets of its own role, and hidden ones. A plane is a sheet whose u runs along a
+    /// direction, if one is given: what bends along that alone needs no more control points across it.
+    fn closed(
+        &self,
+        [low, high]: [DVec3; 2],
+        along: Option<DVec2>,
+    ) -> Result<Shell, MoveError> {
         let margin = FAR * (high - low).max_element();
         let role = self.role();
         match self.ends() {
+            Ends::Plan(sheet) if sheet.horizon().lattices().is_empty() && along.is_some() => {
+                let horizon = sheet.horizon();
+                let along = along.unwrap_or(DVec2::X);
+                let middle = 0.5 * (low + high).xy();
+                let reach = 0.5 * (high - low).xy().length();
+                let corner = |u: f64, v: f64| {
+                    let at = middle + reach * (u * along + v * along.perp());
+                    at.extend(horizon.height(at.x, at.y))
+                };
+                let corners = [
+                    corner(-1.0, -1.0),
+                    corner(-1.0, 1.0),
+                    corner(1.0, -1.0),
+                    corner(1.0, 1.0),
+                ];
+                let most = corners.iter().fold(high.z, |most, corner| most.max(corner.z));
+                Ok(upright(role, &Surface::bilinear(corners)?, most + margin)?)
+            }
             Ends::Plan(sheet) => {
                 let sheet = HorizonSheet::new(sheet.horizon().clone(), low, high)?;
                 let [least, most] = sheet.heights();
@@ -233,6 +284,7 @@ fn heights(
     motions: &Motions,
     domain: [DVec3; 2],
     tolerance: f64,
+    reliefs: &Reliefs,
 ) -> Result<Option<(Horizon, f64)>, MoveError> {
     let count = motions
         .all()
@@ -249,7 +301,7 @@ fn heights(
     after.reverse();
     for (k, motion) in motions.all().iter().enumerate() {
         let (horizon, deviation) = &moved;
-        let Some((next, more)) = one_by_one(horizon, motion, [after[k], after[k + 1]], share)?
+        let Some((next, more)) = one_by_one(horizon, motion, [after[k], after[k + 1]], share, reliefs)?
         else {
             return Ok(None);
         };
@@ -264,6 +316,7 @@ fn one_by_one(
     motion: &Motion,
     [before, after]: [[DVec3; 2]; 2],
     tolerance: f64,
+    reliefs: &Reliefs,
 ) -> Result<Option<(Horizon, f64)>, MoveError> {
     if let Some(by) = motion.shift() {
         return Ok(Some((horizon.moved(by), 0.0)));
@@ -275,7 +328,8 @@ fn one_by_one(
             let from = (at - by).extend(0.0);
             Some(motion.forward(from).z)
         };
-        let (relief, deviation) = relief::horizon(&lift, plan, tolerance)?;
+        let make = || relief::horizon(&lift, plan, tolerance);
+        let (relief, deviation) = reliefs.get((motion.clone(), plan, tolerance), make)?;
         let moved = horizon.moved(by.extend(0.0)).plus(&relief);
         return Ok(Some((moved, deviation)));
     }

@@ -181,6 +181,11 @@ impl SimilarFold {
         self.keeps_uprights() && self.along.x == 0.0 && self.along.y == 0.0
     }
 
+    /// The horizontal direction across its axial planes.
+    pub(super) fn bends_along(&self) -> Option<DVec2> {
+        self.across.truncate().try_normalize()
+    }
+
     /// The box of all that it moves a place by.
     pub(super) fn reach(&self) -> [DVec3; 2] {
         let [a, b] = self.shape.range().map(|f| f * self.along);

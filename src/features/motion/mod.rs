@@ -153,6 +153,14 @@ impl Motion {
         }
     }
 
+    /// The horizontal unit vector across which level beds stay straight, of a fold: they bend along it alone.
+    pub fn bends_along(&self) -> Option<DVec2> {
+        match self {
+            Self::Fold(fold) => fold.bends_along(),
+            Self::Shift(_) | Self::Heave(_) | Self::Slip(_) | Self::Affine(_) => None,
+        }
+    }
+
     /// A box that holds all places that come to lie in a box, and some more around them.
     pub fn before(&self, [low, high]: [DVec3; 2]) -> [DVec3; 2] {
         let (from, to) = match self {

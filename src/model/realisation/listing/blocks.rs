@@ -347,7 +347,7 @@ impl Adding<'_> {
                 body: Arc::clone(&unmoved.body),
                 motions: unmoved.motions.then(motion.clone()),
             };
-            let moved = from.body.moved(&from.motions, [low, high], tolerance);
+            let moved = from.body.moved(&from.motions, [low, high], tolerance, &self.reliefs);
             let moved = moved.map(|(body, deviation)| (MovedBody { body, from }, deviation));
             moved.map_err(|error| {
                 let name = &self.volumes.rules[*volume].name;

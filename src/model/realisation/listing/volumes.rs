@@ -7,6 +7,7 @@ use super::rock::{Layers, Place, needs_fabric};
 use super::{Due, Listing};
 use crate::features::extent::Extent;
 use crate::features::fabric::Fabric;
+use crate::features::moved::Reliefs;
 use crate::model::kinds::made::{Frame, Made, Part, TakesFrom};
 use crate::model::nature::{self, Nature};
 use crate::model::properties::VolumeProperties;
@@ -82,6 +83,7 @@ impl Volumes {
             grounds: BTreeMap::new(),
             copies: Vec::new(),
             unmoved: BTreeMap::new(),
+            reliefs: Reliefs::default(),
         };
         for (due, built) in list.due.iter().zip(built) {
             if due.takes_part {
@@ -121,6 +123,8 @@ pub(super) struct Adding<'a> {
     pub(super) copies: Vec<BTreeMap<usize, usize>>,
     /// Of volumes that have moved, where they come from.
     pub(super) unmoved: BTreeMap<usize, Unmoved>,
+    /// What events add to heights.
+    pub(super) reliefs: Reliefs,
 }
 
 impl Adding<'_> {
