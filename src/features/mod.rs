@@ -20,6 +20,7 @@ pub mod extrusion;
 pub mod fabric;
 mod fan;
 pub mod fault_surface;
+pub mod fault_zone;
 pub mod fitted;
 pub mod frame;
 pub mod free_clinoform;

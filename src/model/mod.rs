@@ -65,7 +65,7 @@ pub use kinds::channel::{ChannelSpec, SectionOrigin};
 pub use kinds::clinoform::ClinoformSpec;
 pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
-pub use kinds::fault::{FaultSpec, Slip, Tip};
+pub use kinds::fault::{Damage, FaultSpec, Slip, Tip, Zone};
 pub use kinds::fold::{FoldSpec, Folds};
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;

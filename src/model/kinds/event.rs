@@ -46,6 +46,8 @@ impl Made {
                 motion,
                 rest: None,
                 is_plane: false,
+                surface: None,
+                is_again: false,
                 ends_on: None,
                 tolerance,
             }),

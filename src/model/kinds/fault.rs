@@ -8,9 +8,10 @@ use serde::Deserialize;
 
 use super::keys::Keys;
 use super::kind::Kind;
-use super::made::{Event, Made, Site, Wall};
+use super::made::{Event, Made, Part, Site, Wall};
 use crate::features::body::Body;
 use crate::features::fault_surface::FaultSurface;
+use crate::features::fault_zone;
 use crate::features::motion::{
     Displacement, HeaveDesign, Law, Motion, MotionError, SlipDesign, Variation,
 };
@@ -43,8 +44,32 @@ pub struct FaultSpec {
     pub footwall_share: Quantity,
     /// The fault on which it ends, and on which side of that it lies.
     pub ends_on: Option<(Reference, Wall)>,
+    /// Rock along it, younger than its slip.
+    pub zone: Option<Zone>,
     /// How far what it moves may be from where it should be (m); by the domain's size if absent.
     pub tolerance: Option<f64>,
+}
+
+/// What lies along a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Zone {
+    /// The core's facies, by index.
+    pub facies: usize,
+    /// The core's thickness (m); by the displacement if absent.
+    pub thickness: Option<Quantity>,
+    /// What is damaged beside it.
+    pub damage: Option<Damage>,
+}
+
+/// What is damaged along a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Damage {
+    /// Its facies, by index.
+    pub facies: usize,
+    /// Its width, the core included (m); by the displacement if absent.
+    pub width: Option<Quantity>,
+    /// The part of it in the hanging wall.
+    pub hanging_share: Quantity,
 }
 
 /// How far a fault has moved; by fractions of the domain's extent along strike, where it varies.
@@ -75,7 +100,9 @@ pub struct Tip {
 pub(crate) struct FaultFile {
     /// Where it runs: a plane, a listric surface, a section across it, or heights over the plan.
     #[schemars(schema_with = "fault_surface_schema")]
-    pub(crate) surface: Field<Any>,
+    pub(crate) surface: Option<Field<Any>>,
+    /// In place of `surface`: the id of an older fault that slips again. What was laid down between the two slips is moved by this one alone.
+    pub(crate) on: Option<Field<String>>,
     /// How far the hanging wall has moved vertically, in metres, not below 0 (which way is said by `rake_deg`): a number, or a list of [fraction, throw] along strike through the domain. This, `displacement` or `heave`.
     #[schemars(with = "Option<Profile>")]
     pub(crate) throw: Option<Field<Any>>,
@@ -100,9 +127,42 @@ pub(crate) struct FaultFile {
     /// An older fault on which it ends, and on which side of that it lies: { fault = "master", side = "hanging-wall" }.
     #[schemars(with = "Option<EndsOnFile>")]
     pub(crate) ends_on: Option<Field<Any>>,
+    /// Rock along it, younger than its slip: { facies = "gouge", thickness = 0.5 }, with damage = { facies = "fractured", width = 20 } if that is a volume, too.
+    #[schemars(with = "Option<ZoneFile>")]
+    pub(crate) zone: Option<Field<Any>>,
     /// How far what it moves may be from where it should be, in metres, above 0; a hundred-thousandth of the domain's diagonal if left out. Where the slip is the same everywhere nothing is off.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub(crate) tolerance: Option<Field<f64>>,
+}
+
+/// Rock along a fault.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "FaultZone")]
+pub(crate) struct ZoneFile {
+    /// The facies of the core, `ID/core`.
+    pub(crate) facies: Field<String>,
+    /// Thickness of the core in metres, above 0, half of it to each side; a 66th of the displacement, but 0.1 at least, if left out (Manzocchi et al. 1999).
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) thickness: Option<Field<Any>>,
+    /// Damaged rock beside the core, as a volume `ID/damage` of its own.
+    #[schemars(with = "Option<DamageFile>")]
+    pub(crate) damage: Option<Field<Any>>,
+}
+
+/// Damaged rock along a fault.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "FaultDamage")]
+pub(crate) struct DamageFile {
+    /// Its facies.
+    pub(crate) facies: Field<String>,
+    /// Its width in metres, above 0, the core included; as wide as the displacement is long if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) width: Option<Field<Any>>,
+    /// The part of it in the hanging wall, 0 to 1; 0.6 if left out.
+    #[schemars(with = "Option<Quantity>")]
+    pub(crate) hanging_share: Option<Field<Any>>,
 }
 
 /// Where a displacement dies out.
@@ -154,6 +214,11 @@ const SHEAR: Limits = Limits {
 const LEAST_PART: f64 = 1e-3;
 /// Length of a tip line for each metre of its height (Nicol et al. 1996).
 const ASPECT: f64 = 2.15;
+/// Displacement for each metre of a core's thickness (Manzocchi et al. 1999), and the least thickness (m).
+const CORE: f64 = 66.0;
+const LEAST_CORE: f64 = 0.1;
+/// The part of damage in the hanging wall.
+const HANGING_SHARE: f64 = 0.6;
 /// How far a fault lies aside where contacts coincide, in steps, so that it moves with nothing else.
 const ASIDE: f64 = 0.618_033_988_749_895;
 /// How far its sheet reaches beyond the domain, in diagonals: it may be moved itself.
@@ -193,9 +258,33 @@ impl Kind for FaultSpec {
         let file: FaultFile = keys.table()?;
         let example =
             "surface = { dipping = { through = [500, 500, -50], dip_deg = 60, azimuth_deg = 90 } }";
-        let surface = keys
-            .need(file.surface, "surface", example)
-            .and_then(|(node, Any)| fault_surface(keys, node));
+        let is_again = file.on.is_some();
+        let surface = match (file.surface, file.on) {
+            (surface, None) => keys
+                .need(surface.unwrap_or(Field::Missing), "surface", example)
+                .and_then(|(node, Any)| fault_surface(keys, node)),
+            (None, Some(on)) => on
+                .good()
+                .and_then(|(node, id)| keys.older_fault(node, &id, "on"))
+                .map(FaultSurfaceSpec::Of),
+            (Some(surface), Some(_)) => {
+                if let Field::Good(node, _) = surface {
+                    keys.checker.reader.wrong(
+                        node,
+                        format!("{} has both `surface` and `on`", keys.draft.name),
+                        "keep one: a fault that slips again runs where it did",
+                    );
+                }
+                None
+            }
+        };
+        if let (true, Some(Field::Good(node, _))) = (is_again, &file.ends_on) {
+            keys.checker.reader.wrong(
+                *node,
+                format!("{} has both `on` and `ends_on`", keys.draft.name),
+                "leave `ends_on` out: a fault that slips again ends where it did",
+            );
+        }
         let places = [place(&file.tip), place(&file.shear_deg)];
         let slip = keys.slip([
             ("throw", file.throw),
@@ -207,6 +296,7 @@ impl Kind for FaultSpec {
         let share = keys.optional_quantity(file.footwall_share, "footwall_share", FRACTION);
         let tip = good(file.tip, |node| keys.tip(node));
         let ends_on = good(file.ends_on, |node| keys.ends_on(node));
+        let zone = good(file.zone, |node| keys.zone(node));
         let tolerance = keys.tolerance(file.tolerance);
         let none = || Quantity::Constant(0.0);
         let (surface, slip) = (surface?, slip?);
@@ -219,6 +309,7 @@ impl Kind for FaultSpec {
             shear_deg: shear.ok()?.unwrap_or_else(none),
             footwall_share: share.ok()?.unwrap_or_else(none),
             ends_on: ends_on?,
+            zone: zone?,
             tolerance: tolerance?,
         })
     }
@@ -248,20 +339,44 @@ impl Kind for FaultSpec {
         let side = surface
             .side(low, high, margin)
             .map_err(|error| ("no fault", error.to_string()))?;
+        let zone = match &self.zone {
+            Some(zone) => slipped.zone(zone, &along, margin, draws)?,
+            None => Vec::new(),
+        };
+        let wall = Part {
+            drawn: draws.taken(),
+            ..Part::of(Body::Side(Arc::new(side)))
+        };
         Ok(Made {
             event: Some(Event {
                 motion: hanging,
                 rest,
                 is_plane: surface.dip().is_some(),
+                is_again: matches!(self.surface, FaultSurfaceSpec::Of(_)),
+                surface: Some(surface),
                 ends_on: self.ends_on.as_ref().map(|(_, wall)| *wall),
                 tolerance: self.tolerance,
             }),
-            ..Made::body(Body::Side(Arc::new(side)), draws.taken())
+            ..Made::of(std::iter::once(wall).chain(zone).collect())
         })
     }
 
+    fn more_facies(&self) -> Vec<usize> {
+        let zone = self.zone.iter();
+        zone.flat_map(|zone| {
+            let damage = zone.damage.iter().map(|damage| damage.facies);
+            std::iter::once(zone.facies).chain(damage)
+        })
+        .collect()
+    }
+
     fn refers(&self) -> Vec<&Reference> {
-        self.ends_on.iter().map(|(fault, _)| fault).collect()
+        let again = match &self.surface {
+            FaultSurfaceSpec::Of(other) => Some(other),
+            _ => None,
+        };
+        let master = self.ends_on.as_ref().map(|(fault, _)| fault);
+        again.into_iter().chain(master).collect()
     }
 }
 
@@ -328,6 +443,45 @@ impl Keys<'_, '_> {
         })
     }
 
+    fn zone(&mut self, node: NodeId) -> Option<Zone> {
+        let what = self.what("zone");
+        let reader = &self.checker.reader;
+        let file: ZoneFile = reader.table(node)?;
+        reader.close(node, &what);
+        let facies = reader.need(file.facies, node, &what, "facies", "facies = \"gouge\"");
+        let facies = facies
+            .and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
+        let thickness = good(file.thickness, |at| {
+            quantity(reader, at, &format!("the thickness of {what}"), POSITIVE)
+        });
+        let damage = good(file.damage, |at| self.damage(at, &format!("the damage of {what}")));
+        Some(Zone {
+            facies: facies?,
+            thickness: thickness?,
+            damage: damage?,
+        })
+    }
+
+    fn damage(&self, node: NodeId, what: &str) -> Option<Damage> {
+        let reader = &self.checker.reader;
+        let file: DamageFile = reader.table(node)?;
+        reader.close(node, what);
+        let facies = reader.need(file.facies, node, what, "facies", "facies = \"fractured\"");
+        let facies = facies
+            .and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
+        let width = good(file.width, |at| {
+            quantity(reader, at, &format!("the width of {what}"), POSITIVE)
+        });
+        let share = good(file.hanging_share, |at| {
+            quantity(reader, at, &format!("the hanging_share of {what}"), FRACTION)
+        });
+        Some(Damage {
+            facies: facies?,
+            width: width?,
+            hanging_share: share?.unwrap_or(Quantity::Constant(HANGING_SHARE)),
+        })
+    }
+
     /// What goes with planes alone, or with bent faults alone.
     fn check_form(
         &self,
@@ -335,6 +489,9 @@ impl Keys<'_, '_> {
         (slip_at, slip): &(NodeId, Slip),
         [tip, shear]: [Option<NodeId>; 2],
     ) -> Option<()> {
+        if let FaultSurfaceSpec::Of(_) = surface {
+            return Some(());
+        }
         let is_plane = matches!(surface, FaultSurfaceSpec::Plane(_));
         let name = &self.draft.name;
         let wrong = |at: NodeId, message: String, remedy: &str| {
@@ -371,23 +528,28 @@ impl Keys<'_, '_> {
         }
     }
 
+    /// A fault that comes before it in the list.
+    fn older_fault(&self, node: NodeId, id: &str, key: &str) -> Option<Reference> {
+        let what = self.what(key);
+        let reference = self.checker.refer(node, id, &what, Gives::Fault, self.family)?;
+        if reference.feature > self.family.own {
+            self.checker.reader.wrong(
+                node,
+                format!("{what} names {}, which is younger", quoted(id)),
+                "list that fault before it",
+            );
+            return None;
+        }
+        Some(reference)
+    }
+
     fn ends_on(&mut self, node: NodeId) -> Option<(Reference, Wall)> {
         let what = self.what("ends_on");
         let file: EndsOnFile = self.checker.reader.table(node)?;
         self.checker.reader.close(node, &what);
         let need = |field, key, example| self.checker.reader.need(field, node, &what, key, example);
-        let fault = need(file.fault, "fault", "fault = \"master\"").and_then(|(at, id)| {
-            let reference = self.checker.refer(at, &id, &what, Gives::Fault, self.family)?;
-            if reference.feature > self.family.own {
-                self.checker.reader.wrong(
-                    at,
-                    format!("{what} names {}, which is younger", quoted(&id)),
-                    "list the fault on which it ends before it",
-                );
-                return None;
-            }
-            Some(reference)
-        });
+        let fault = need(file.fault, "fault", "fault = \"master\"")
+            .and_then(|(at, id)| self.older_fault(at, &id, "ends_on"));
         let side = need(file.side, "side", "side = \"hanging-wall\"").and_then(|(at, word)| {
             let wall = match word.as_str() {
                 "hanging-wall" => Some(Wall::Hanging),
@@ -481,6 +643,10 @@ impl Slipped {
             ));
         }
         let is_bent = self.surface.dip().is_none();
+        if is_bent && !matches!(slip, Slip::Heave(_)) {
+            let message = "it slips on a fault that is bent, where throws differ from place to place; give its `heave`".to_owned();
+            return Err(("throw of what is bent", message));
+        }
         if is_bent && self.rake.cos().abs() > LEAST_PART {
             let message = format!(
                 "its rake is {:.1} degrees, but what is bent slides across its strike alone; write -90 or 90",
@@ -563,6 +729,68 @@ impl Slipped {
             (p, (off.dot(strike) / length).hypot(off.dot(down) / height))
         });
         places.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The volumes along the fault: what is damaged, then the core.
+    fn zone(
+        &self,
+        zone: &Zone,
+        along: &[[f64; 2]],
+        margin: f64,
+        draws: &mut Draws<'_>,
+    ) -> Result<Vec<Part>, Reason> {
+        let slip = along.iter().map(|place| place[1]).fold(0.0, f64::max);
+        // In plan, of what is bent: along its dip at its point.
+        let displacement = match self.surface.dip() {
+            Some(_) => slip,
+            None => slip * self.surface.slope(self.surface.through().xy()).hypot(1.0),
+        };
+        let thickness = match &zone.thickness {
+            Some(thickness) => draws.quantity(thickness, "zone.thickness")?,
+            None => (displacement / CORE).max(LEAST_CORE),
+        };
+        let mut parts = Vec::new();
+        if let Some(damage) = &zone.damage {
+            let width = match &damage.width {
+                Some(width) => draws.quantity(width, "zone.damage.width")?,
+                None => displacement,
+            };
+            let share = draws.quantity(&damage.hanging_share, "zone.damage.hanging_share")?;
+            let reach = [width * (1.0 - share), width * share];
+            if reach.iter().any(|reach| *reach <= 0.5 * thickness) {
+                return Err((
+                    "no damage beside the core",
+                    format!(
+                        "its damage reaches {:.3} m into the footwall and {:.3} m into the hanging wall, but its core {:.3} m; make the damage wider",
+                        reach[0], reach[1], 0.5 * thickness
+                    ),
+                ));
+            }
+            parts.push(self.slab("/damage", damage.facies, reach, margin, draws)?);
+        }
+        let half = [0.5 * thickness; 2];
+        parts.push(self.slab("/core", zone.facies, half, margin, draws)?);
+        Ok(parts)
+    }
+
+    fn slab(
+        &self,
+        name: &str,
+        facies: usize,
+        reach: [f64; 2],
+        margin: f64,
+        draws: &mut Draws<'_>,
+    ) -> Result<Part, Reason> {
+        let [low, high] = self.domain;
+        let tolerance = (0.01 * (reach[0] + reach[1])).min(1e-5 * low.distance(high));
+        let shell = fault_zone::slab(&self.surface, reach, self.domain, margin, tolerance);
+        let shell = shell.map_err(|error| ("no fault zone", error.to_string()))?;
+        Ok(Part {
+            name: name.to_owned(),
+            facies: Some(facies),
+            drawn: draws.taken(),
+            ..Part::of(Body::Shell(shell))
+        })
     }
 
     /// The motion of a side that has a share of the slip, with its sign.

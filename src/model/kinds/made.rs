@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::features::body::Body;
 use crate::features::fabric::Fabric;
+use crate::features::fault_surface::FaultSurface;
 use crate::features::horizon::Horizon;
 use crate::features::motion::Motion;
 use crate::features::reach::Reach;
@@ -163,6 +164,10 @@ pub(crate) struct Event {
     pub(crate) rest: Option<Motion>,
     /// Whether the part is one side of a plane.
     pub(crate) is_plane: bool,
+    /// The fault's surface, on which it may slip again.
+    pub(crate) surface: Option<Arc<FaultSurface>>,
+    /// Whether it is another slip on the surface of an older fault, the first that it refers to.
+    pub(crate) is_again: bool,
     /// Of a fault that ends on another one, the first that it refers to: on which side of that it lies.
     pub(crate) ends_on: Option<Wall>,
     /// How far what it moves may be off (m); by the domain's size if absent.

@@ -16,6 +16,7 @@ use crate::model::draws::{Draws, Reason};
 use crate::model::kinds::keys::Keys;
 use crate::model::kinds::made::Site;
 use crate::model::read::{Any, Field};
+use crate::model::references::Reference;
 use crate::model::tree::{NodeId, quoted};
 
 /// Where a fault runs.
@@ -43,6 +44,8 @@ pub enum FaultSurfaceSpec {
     },
     /// Heights over the plan.
     Heights(Box<HorizonSurface>),
+    /// That of an older fault.
+    Of(Reference),
 }
 
 /// A plane, or what is one at a point.
@@ -354,6 +357,13 @@ impl FaultSurfaceSpec {
                     .to_radians();
                 let through = through + aside * towards(azimuth).extend(0.0);
                 FaultSurface::profile(through, azimuth, points).map_err(wrong)?
+            }
+            Self::Of(other) => {
+                let event = site.other(other)?.made.event.as_ref();
+                let surface = event.and_then(|event| event.surface.clone());
+                return surface.ok_or_else(|| {
+                    ("no fault", "what it slips on is no fault with a surface".to_owned())
+                });
             }
             Self::Heights(heights) => {
                 let drawn = surface::horizon(heights, site.domain, draws.key);

@@ -104,6 +104,7 @@ impl Adding<'_> {
 
     /// Moves every body.
     fn move_all(&mut self, due: &Due, event: &Event) -> Result<(), RealisationError> {
+        self.slipping = None;
         let all: Vec<usize> = (1..self.volumes.rules.len()).collect();
         let moved = self.moved(&all, event, &event.motion)?;
         let deviation = moved.deviation;
@@ -123,6 +124,7 @@ impl Adding<'_> {
     /// Parts what is older in two blocks.
     fn part(&mut self, due: &Due, event: &Event, part: Part) -> Result<(), RealisationError> {
         let [own, rest] = [Wall::Hanging, Wall::Foot].map(|wall| format!("{}.{}", due.name, wall.word()));
+        let again = self.again(due, event)?;
         let (roots, outside) = self.reach(due, event);
         let mut deviation = 0.0_f64;
         let mut parted = Vec::new();
@@ -133,7 +135,7 @@ impl Adding<'_> {
             deviation = deviation.max(moved.deviation);
             let ground = self.add_ground(due, &part, root, &outside, &own);
             self.grounds.insert(ground, first);
-            self.copy(&block, ground, moved.all, event, &part.body, &own);
+            self.copy(&block, ground, moved.all, event, (&part.body, again), &own);
             if let Some(rest) = &event.rest {
                 let moved = self.moved(&block.members, event, rest)?;
                 deviation = deviation.max(moved.deviation);
@@ -147,6 +149,22 @@ impl Adding<'_> {
         }
         self.told(due, deviation);
         Ok(())
+    }
+
+    /// The first ground of the fault that slips again.
+    fn again(&mut self, due: &Due, event: &Event) -> Result<Option<usize>, RealisationError> {
+        let own = self.volumes.rules.len();
+        let older = due.referents.first().copied().flatten();
+        let older = older.filter(|_| event.is_again);
+        let first = older.and_then(|older| self.firsts[older]);
+        if first.is_some() && self.slipping != first {
+            return Err(impossible(&due.name)(
+                "another event comes between its slips, or it ends on another fault; list slips of one fault without other faults and folds between them"
+                    .to_owned(),
+            ));
+        }
+        self.slipping = first.or(Some(own)).filter(|_| event.ends_on.is_none());
+        Ok(first)
     }
 
     /// The grounds in whose blocks a fault parts what is older, and those of the blocks that it does not reach into.
@@ -235,7 +253,7 @@ impl Adding<'_> {
         ground: usize,
         moved: Vec<MovedBody>,
         event: &Event,
-        wall: &Body,
+        (wall, again): (&Body, Option<usize>),
         name: &str,
     ) {
         let mut copies: BTreeMap<usize, usize> = BTreeMap::from([(block.root, ground)]);
@@ -247,9 +265,18 @@ impl Adding<'_> {
                 })
             };
             let belongs = is_copied(of.parent) && is_copied(of.from) && is_copied(of.above);
-            if !belongs || !self.reaches(&moved.body, wall, event) {
+            // What lies below a fault that slips again, and is older, is never above it.
+            let is_below = again.is_some_and(|first| member < first);
+            if !belongs || is_below || !self.reaches(&moved.body, wall, event) {
                 continue;
             }
+            let slips_again = again.is_some() && self.grounds.get(&member) == again.as_ref();
+            let moved = if slips_again {
+                // It moves along itself.
+                MovedBody::still(wall)
+            } else {
+                moved
+            };
             let copy = |volume: usize| copies.get(&volume).copied();
             let mut rules = VolumeRules {
                 parent: of.parent.and_then(copy),
@@ -380,6 +407,19 @@ struct Moved {
 struct MovedBody {
     body: Body,
     from: Unmoved,
+}
+
+impl MovedBody {
+    /// A body that has not moved.
+    fn still(body: &Body) -> Self {
+        Self {
+            body: body.clone(),
+            from: Unmoved {
+                body: Arc::new(body.clone()),
+                motions: Motions::none(),
+            },
+        }
+    }
 }
 
 /// A body as it was made, and how it has moved since: so that it is moved once, however many events there are.

@@ -83,6 +83,7 @@ impl Volumes {
             grounds: BTreeMap::new(),
             copies: Vec::new(),
             unmoved: BTreeMap::new(),
+            slipping: None,
             reliefs: Reliefs::default(),
         };
         for (due, built) in list.due.iter().zip(built) {
@@ -123,6 +124,8 @@ pub(super) struct Adding<'a> {
     pub(super) copies: Vec<BTreeMap<usize, usize>>,
     /// Of volumes that have moved, where they come from.
     pub(super) unmoved: BTreeMap<usize, Unmoved>,
+    /// The ground of the fault that may slip again: nothing has moved it since.
+    pub(super) slipping: Option<usize>,
     /// What events add to heights.
     pub(super) reliefs: Reliefs,
 }
@@ -142,12 +145,15 @@ impl Adding<'_> {
         self.volumes
             .decisions
             .extend(decisions.map(|text| format!("{} {text}", feature.id)));
-        if let Some(event) = event {
-            self.firsts.push(Some(self.volumes.rules.len()));
-            self.displace(due, &event, parts.into_iter().next())?;
-            self.ends.push(self.volumes.rules.len());
-            return Ok(());
-        }
+        let oldest = self.volumes.rules.len();
+        let parts = match event {
+            None => parts,
+            Some(event) => {
+                let mut parts = parts.into_iter();
+                self.displace(due, &event, parts.next())?;
+                parts.collect()
+            }
+        };
         self.check_left_out(due, nature, &parts)?;
         let parent = due.parent.and_then(|parent| self.firsts[parent]);
         let above = self.above.get(&due.feature);
@@ -159,7 +165,7 @@ impl Adding<'_> {
         };
         let fabrics = self.fabrics(due, feature, &parts, &frame)?;
         let first = self.volumes.rules.len();
-        self.firsts.push(Some(first));
+        self.firsts.push(Some(oldest));
         // By part, its volume, or of what takes no part what it would take from.
         let mut places: Vec<Option<usize>> = Vec::with_capacity(parts.len());
         for (at, part) in parts.into_iter().enumerate() {
