@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::export::report::{ConnectivityEntry, Report};
+use crate::export::report::{ConnectivityEntry, Report, VolumeEntry};
 
 /// Rows of the summary's table of volumes.
 const MOST_ROWS: usize = 30;
@@ -126,7 +126,10 @@ fn volumes(report: &Report) -> comfy_table::Table {
     let mut volumes = comfy_table::Table::new();
     volumes.load_style(comfy_table::presets::NOTHING);
     volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
-    for volume in report.volumes.iter().take(MOST_ROWS) {
+    // Of what faults part, most blocks have some volumes that are nowhere in them.
+    let is_there =
+        |volume: &&VolumeEntry| volume.block.is_none() || !volume.solids.is_empty();
+    for volume in report.volumes.iter().filter(is_there).take(MOST_ROWS) {
         volumes.add_row([
             match &volume.display_name {
                 None => volume.name.clone(),

@@ -82,6 +82,11 @@ pub const TEMPLATES: &[Template] = templates! {
     "fig03-degrees": "a surface from a control net of degree 1, 2 or 3, with weights",
     "fig07-join": "a surface from three control nets of different degrees that join",
 
+    "fig10a-recumbent-fold": "beds in a recumbent fold, cut by a younger thrust",
+    "fig10b-conjugate-faults": "two normal faults that cross, through beds and a channel, and what seals them",
+    "fig10c-listric-growth": "a listric fault that slips three times, with rollover and growth strata",
+    "fault-zone": "a core of gouge in damaged rock along a fault",
+
     "fig02-wells" with ["a-3.dev", "a-4.csv"]: "five wells and a lateral from one site, through the coastal model",
 
     "rock": "properties drawn for each volume, permeabilities along its layers",

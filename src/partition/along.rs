@@ -1,7 +1,7 @@
 //! Where a curve on a height passes through another height over the same plan: roots of the heights' difference along the
 //! curve, which is one function of one variable, at any angle between the sheets.
 
-use glam::{DVec2, Vec3Swizzles};
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::bounds::Bounds;
 use super::heights::Heights;
@@ -24,6 +24,8 @@ pub(super) struct Along<'a> {
     heights: Heights<'a>,
     tolerances: Tolerances,
     clip: Bounds,
+    /// Whether the curve, and what it passes through, make a difference at a point.
+    matters: &'a dyn Fn(DVec3) -> bool,
     noise: f64,
     pub(super) roots: Vec<Root>,
     /// Places that halving did not decide: the curve touches the sheet, or runs along it.
@@ -32,11 +34,17 @@ pub(super) struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    pub(super) fn new(heights: Heights<'a>, tolerances: Tolerances, clip: Bounds) -> Self {
+    pub(super) fn new(
+        heights: Heights<'a>,
+        tolerances: Tolerances,
+        clip: Bounds,
+        matters: &'a dyn Fn(DVec3) -> bool,
+    ) -> Self {
         Self {
             heights,
             tolerances,
             clip,
+            matters,
             noise: CERTAIN * heights.noise(),
             roots: Vec::new(),
             undecided: 0,
@@ -97,17 +105,24 @@ impl<'a> Along<'a> {
             let is_monotone = rate[0] > certain || rate[1] < -certain;
             if is_monotone || is_small {
                 if !self.land(whole, part.t) && !is_monotone {
-                    self.undecided += 1;
+                    self.doubt(whole, part);
                 }
                 return;
             }
         } else if self.halvings > MOST {
-            self.undecided += 1;
+            self.doubt(whole, part);
             return;
         }
         for half in part.halves() {
             self.visit(whole, &half);
         }
+    }
+
+    /// A part of a curve of which nobody knows whether it passes through, unless that makes no difference there.
+    fn doubt(&mut self, whole: &Segment, part: &Segment) {
+        let [from, to] = part.t;
+        let point = whole.evaluate(f64::midpoint(from, to)).0;
+        self.undecided += usize::from((self.matters)(point));
     }
 
     /// The root between two parameters at which the difference has different signs; `false` if it has not.

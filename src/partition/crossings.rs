@@ -234,13 +234,13 @@ pub(super) fn edge_roots(
                 .sheets()
                 .into_iter()
                 .find_map(|at| Heights::of([&regions.sheets[at], other]));
+            let matters = |point: DVec3| regions.matter([own.region, other.region], point);
             let (found, doubtful) = if let Some(heights) = on_height {
                 let everywhere = [[f64::NEG_INFINITY, f64::INFINITY]];
-                let found =
-                    Along::new(heights, tolerances, clip).within(&own.segments, &everywhere);
+                let found = Along::new(heights, tolerances, clip, &matters)
+                    .within(&own.segments, &everywhere);
                 (found.roots, found.undecided)
             } else {
-                let matters = |point: DVec3| regions.matter([own.region, other.region], point);
                 let found = Piercing::new(&own.segments, other, tolerances, clip, &matters).run();
                 (found.roots, found.undecided)
             };

@@ -24,6 +24,9 @@ use crate::nurbs::{Curve, Surface};
 
 pub use self::shape::{Membership, Region};
 
+/// The region that is the domain.
+const DOMAIN: usize = 0;
+
 /// All sheets with the regions that they bound.
 #[derive(Debug)]
 pub(super) struct Regions {
@@ -135,15 +138,16 @@ impl Regions {
     }
 
     /// Whether the curve of two sheets is to be looked for on a third one: not where that lands on either of them, or
-    /// either on it, which is known; and not if it matters to neither.
+    /// either on it, which is known; and not if it matters to neither. Beyond the domain nothing matters: on its own sheets the third
+    /// one must matter to the other of the two.
     pub(super) fn may_pierce(&self, ends: [usize; 2], third: usize) -> bool {
         let region = self.sheets[third].region;
+        let own = ends.map(|end| self.sheets[end].region);
+        let inner: Vec<usize> = own.into_iter().filter(|own| *own != DOMAIN).collect();
         !ends
             .iter()
             .any(|end| self.touch(*end, third) || self.are_twins(*end, third))
-            && ends
-                .iter()
-                .any(|end| self.relations.meet(self.sheets[*end].region, region))
+            && (inner.is_empty() || inner.iter().any(|own| self.relations.meet(*own, region)))
     }
 
     /// Makes an open border that lies on a level sheet of another region an edge.

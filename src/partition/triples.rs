@@ -146,15 +146,15 @@ impl<'a> Thirds<'a> {
                 .sheets
                 .iter()
                 .find_map(|own| Heights::of([&self.regions.sheets[*own], other]));
+            let matters = |point: DVec3| {
+                let mut own = self.own.iter();
+                own.any(|own| self.regions.matter([*own, region], point))
+            };
             let (roots, undecided) = if let Some(heights) = on_height {
-                let found = Along::new(heights, self.tolerances, self.clip);
+                let found = Along::new(heights, self.tolerances, self.clip, &matters);
                 let found = found.within(&self.segments, &self.live);
                 (found.roots, found.undecided)
             } else {
-                let matters = |point: DVec3| {
-                    let mut own = self.own.iter();
-                    own.any(|own| self.regions.matter([*own, region], point))
-                };
                 let clip = self.clip;
                 let found = Piercing::new(&self.segments, other, self.tolerances, clip, &matters);
                 let found = found.within(&self.live);

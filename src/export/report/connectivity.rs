@@ -180,6 +180,15 @@ pub(super) fn units(parts: Parts<'_>) -> Vec<UnitEntry> {
         }
         if volumes[at].kind == "horizon" { at } else { 0 }
     };
+    // A unit that faults part is one.
+    let mut wholes: BTreeMap<&str, usize> = BTreeMap::new();
+    for (volume, rules) in volumes.iter().enumerate() {
+        wholes.entry(rules.unfaulted_name()).or_insert(volume);
+    }
+    let unit_of = |volume: usize| {
+        let unit = unit_of(volume);
+        wholes.get(volumes[unit].unfaulted_name()).copied().unwrap_or(unit)
+    };
     let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for volume in 0..volumes.len() {
         members.entry(unit_of(volume)).or_default().push(volume);
@@ -202,7 +211,7 @@ pub(super) fn units(parts: Parts<'_>) -> Vec<UnitEntry> {
         let net: Option<f64> = shares.iter().map(|one| part_of(one, &["net"])).sum();
         let silent = present.filter(|at| parts.realisation.properties[*at].scalar("net").is_none());
         UnitEntry {
-            unit: volumes[*unit].name.clone(),
+            unit: volumes[*unit].unfaulted_name().to_owned(),
             volume_m3: size,
             net_volume_m3: net,
             net_to_gross: net.filter(|_| size > 0.0).map(|net| net / size),

@@ -99,6 +99,15 @@ pub struct DomainEntry {
     pub volume_m3: f64,
 }
 
+/// Where a volume lies that faults part.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct BlockEntry {
+    /// The block: on which side of each fault, as `a.hw+b.fw`.
+    pub name: String,
+    /// What the volume is called without it: all of its pieces have the same.
+    pub of: String,
+}
+
 /// One volume.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VolumeEntry {
@@ -118,6 +127,9 @@ pub struct VolumeEntry {
     pub color: String,
     /// The volume that it is a child of.
     pub parent: Option<String>,
+    /// The block in which it lies, and its name without that, if faults part it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block: Option<BlockEntry>,
     /// The volume that it goes along, if it is a companion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub along: Option<String>,

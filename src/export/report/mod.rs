@@ -190,6 +190,10 @@ fn volume_entry(parts: Parts<'_>, volume: usize, label: Option<String>) -> Volum
         parent: rules
             .parent
             .map(|parent| realisation.volumes[parent].name.clone()),
+        block: (!rules.block.name.is_empty()).then(|| BlockEntry {
+            name: rules.block.name.clone(),
+            of: rules.unfaulted_name().to_owned(),
+        }),
         along: rules
             .along
             .map(|along| realisation.volumes[along].name.clone()),

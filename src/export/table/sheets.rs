@@ -49,6 +49,10 @@ pub fn volumes(report: &Report) -> Sheet {
         "pore_volume_m3",
         "number",
     ]);
+    let has_blocks = report.volumes.iter().any(|volume| volume.block.is_some());
+    if has_blocks {
+        names.extend(columns(&["block", "of"]));
+    }
     names.extend(rock.columns());
     let row = |(number, volume): (usize, &VolumeEntry)| {
         let scalar = |name: &str| volume.properties.get(name).and_then(Value::as_f64);
@@ -68,6 +72,12 @@ pub fn volumes(report: &Report) -> Sheet {
             Cell::volume(part(scalar("porosity"))),
             Cell::count(number),
         ];
+        if has_blocks {
+            let block = volume.block.as_ref();
+            row.push(Cell::words(block.map(|block| block.name.as_str())));
+            let of = block.map_or(volume.name.as_str(), |block| block.of.as_str());
+            row.push(text(of));
+        }
         row.extend(rock.cells(volume));
         row
     };

@@ -134,7 +134,8 @@ impl Adding<'_> {
             let moved = self.moved(&block.members, event, &event.motion)?;
             deviation = deviation.max(moved.deviation);
             let ground = self.add_ground(due, &part, root, &outside, &own);
-            self.grounds.insert(ground, first);
+            // What slips again lies where it did.
+            self.grounds.insert(ground, again.unwrap_or(first));
             self.copy(&block, ground, moved.all, event, (&part.body, again), &own);
             if let Some(rest) = &event.rest {
                 let moved = self.moved(&block.members, event, rest)?;
@@ -265,8 +266,11 @@ impl Adding<'_> {
                 })
             };
             let belongs = is_copied(of.parent) && is_copied(of.from) && is_copied(of.above);
-            // What lies below a fault that slips again, and is older, is never above it.
-            let is_below = again.is_some_and(|first| member < first);
+            // What lies below a fault that slips again, and is older, is never above it; and what lies above it has gone with the
+            // slip before this one.
+            let has_gone = |ground: &usize| self.lies_in(member, *ground);
+            let is_below = again.is_some_and(|first| member < first)
+                || self.gone.iter().any(has_gone);
             if !belongs || is_below || !self.reaches(&moved.body, wall, event) {
                 continue;
             }
@@ -313,6 +317,10 @@ impl Adding<'_> {
             self.volumes.rules.push(rules);
             self.volumes.instances.push(instance);
             self.unmoved.insert(volume, moved.from);
+        }
+        if let Some(first) = again {
+            let of_fault = copies.keys().filter(|one| self.grounds.get(*one) == Some(&first));
+            self.gone.extend(of_fault);
         }
         self.add_pieces(&copies);
         self.copies.push(copies);

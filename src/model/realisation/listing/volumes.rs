@@ -84,6 +84,7 @@ impl Volumes {
             copies: Vec::new(),
             unmoved: BTreeMap::new(),
             slipping: None,
+            gone: Vec::new(),
             reliefs: Reliefs::default(),
         };
         for (due, built) in list.due.iter().zip(built) {
@@ -124,6 +125,8 @@ pub(super) struct Adding<'a> {
     pub(super) copies: Vec<BTreeMap<usize, usize>>,
     /// Of volumes that have moved, where they come from.
     pub(super) unmoved: BTreeMap<usize, Unmoved>,
+    /// Grounds of faults that have slipped again: all that lay there has moved on.
+    pub(super) gone: Vec<usize>,
     /// The ground of the fault that may slip again: nothing has moved it since.
     pub(super) slipping: Option<usize>,
     /// What events add to heights.
