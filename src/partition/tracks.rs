@@ -190,7 +190,37 @@ impl Tracks {
         for track in &mut all.tracks {
             track.cuts.sort_by(|a, b| a.t.total_cmp(&b.t));
         }
+        all.part_neighbours(regions);
         all
+    }
+
+    /// Of cuts at one place, those are left out whose region others hide there: it is not known in which order they come, and they bound
+    /// nothing. So it is where a sheet comes to lie where another one is that is hidden, as beds do on both sides of a fault.
+    fn part_neighbours(&mut self, regions: &Regions) {
+        let near = MATCH * regions.domain.diagonal();
+        for track in &mut self.tracks {
+            let points = &self.points;
+            let are_one = |a: &Cut, b: &Cut| {
+                a.region != b.region && points[a.vertex].distance(points[b.vertex]) <= near
+            };
+            let cuts = &track.cuts;
+            let crowded = |at: usize| {
+                let before = at.checked_sub(1).map(|before| &cuts[before]);
+                let after = cuts.get(at + 1);
+                [before, after].into_iter().flatten().any(|other| are_one(&cuts[at], other))
+            };
+            let own = track.sheets.map(|sheet| regions.sheets[sheet].region);
+            let bounds = |at: usize| {
+                let Some(region) = cuts[at].region else {
+                    return true;
+                };
+                let point = points[cuts[at].vertex];
+                !crowded(at) || own.iter().any(|own| regions.matter([*own, region], point))
+            };
+            let kept: Vec<bool> = (0..cuts.len()).map(bounds).collect();
+            let mut kept = kept.into_iter();
+            track.cuts.retain(|_| kept.next().unwrap_or(true));
+        }
     }
 
     fn vertex(&mut self, point: DVec3) -> usize {
