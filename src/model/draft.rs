@@ -96,6 +96,24 @@ impl Draft {
         removes.into_iter().chain(preserve).collect()
     }
 
+    /// The keys that only rock has which the file gives, with their places.
+    pub(crate) fn keys_of_rock(&self) -> Vec<(&'static str, NodeId)> {
+        let facies = match &self.file.facies {
+            Field::Good(at, _) => Some(("facies", *at)),
+            _ => None,
+        };
+        let others = [
+            ("properties", &self.file.properties),
+            ("conform", &self.file.conform),
+            ("removed_by", &self.file.removed_by),
+        ];
+        let others = others.into_iter().filter_map(|(key, field)| match field {
+            Some(Field::Good(at, Any)) => Some((key, *at)),
+            _ => None,
+        });
+        facies.into_iter().chain(others).collect()
+    }
+
     /// Whether the file gives a parent that is no name at all.
     pub(crate) fn wrong_parent(&self) -> bool {
         matches!(self.file.parent, Some(Field::Bad))

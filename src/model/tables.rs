@@ -106,6 +106,7 @@ pub(crate) fn by_kind_but(
             .iter()
             .filter_map(|part| part.get("required")?.as_array().cloned())
             .flatten()
+            .filter(|key| key.as_str().is_none_or(|key| !lacking.contains(&key)))
             .collect();
         let rest = std::mem::take(&mut table);
         table = object(json!({

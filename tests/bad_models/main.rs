@@ -15,6 +15,7 @@ mod clinoforms;
 mod companions;
 mod data;
 mod ellipsoids;
+mod faults;
 mod files;
 mod keys;
 mod lags;

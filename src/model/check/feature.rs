@@ -358,6 +358,19 @@ impl Checker<'_> {
             Field::Bad => None,
             Field::Good(at, name) => Some((*at, name)),
         };
+        if is_event {
+            for (key, node) in draft.keys_of_rock() {
+                self.reader.wrong(
+                    node,
+                    format!(
+                        "{} has `{key}`, but a {} is no rock",
+                        draft.name,
+                        draft.kind.map_or("", |kind| kind.name)
+                    ),
+                    "leave it out",
+                );
+            }
+        }
         let facies = named.and_then(|(at, name)| self.known_facies(at, name, family.facies));
         // What is no rock has none; it stands for that of the background.
         let facies = facies.or_else(|| domain.filter(|_| is_event).map(|domain| domain.facies));
