@@ -21,6 +21,7 @@ pub mod fabric;
 mod fan;
 pub mod fault_surface;
 pub mod fitted;
+pub mod folded_beds;
 pub mod frame;
 pub mod free_clinoform;
 pub mod honouring;

@@ -65,6 +65,7 @@ pub use kinds::channel::{ChannelSpec, SectionOrigin};
 pub use kinds::clinoform::ClinoformSpec;
 pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
+pub use kinds::folded_beds::FoldedBedsSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
 pub use kinds::levee::LeveeSpec;

@@ -10,6 +10,7 @@ pub(crate) mod channel;
 pub(crate) mod clinoform;
 pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
+pub(crate) mod folded_beds;
 pub(crate) mod horizon;
 pub(crate) mod keys;
 mod kind;
@@ -40,6 +41,7 @@ use channel::ChannelSpec;
 use clinoform::ClinoformSpec;
 use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
+use folded_beds::FoldedBedsSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use kind::Kind;
@@ -188,6 +190,8 @@ kinds! {
     Sheet(SheetSpec),
     /// A closed body from control nets of one's own.
     Body(BodySpec),
+    /// A stack of beds of constant thickness, in a fold.
+    FoldedBeds(FoldedBedsSpec),
     /// Wedges on the banks of a channel.
     Levee(LeveeSpec),
     /// A lobe of what a flood carried through a bank of a channel.
