@@ -151,7 +151,8 @@ impl FoldedBedsDesign {
         2.0 * self.radius * self.turning() + self.limb
     }
 
-    fn check(&self) -> Result<(), FoldedBedsError> {
+    /// Whether there is such a fold, wherever it is.
+    pub fn check(&self) -> Result<(), FoldedBedsError> {
         if self.thickness.is_empty() {
             return Err(FoldedBedsError::None);
         }

@@ -16,6 +16,7 @@ mod companions;
 mod data;
 mod ellipsoids;
 mod files;
+mod folded_beds;
 mod keys;
 mod lags;
 mod likes;

@@ -1,5 +1,6 @@
 //! Folded beds: a stack of beds of constant thickness, built as a pair of an antiform and a synform.
 
+use glam::DVec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -120,16 +121,27 @@ impl Kind for FoldedBedsSpec {
         let base_offset = keys.optional_quantity(file.base_offset, "base_offset", ANY);
         let beds = keys.bed_thickness(file.beds);
         let facies = keys.facies_list(file.bed_facies, "bed_facies");
-        Some(Self {
+        let (node, beds) = beds?;
+        let spec = Self {
             center: center.ok()?.map(|(_, center)| center),
             azimuth_deg: azimuth?,
             interlimb_deg: interlimb?,
             radius: radius?,
             limb: limb?,
             base_offset: base_offset.ok()?,
-            beds: beds?,
+            beds,
             facies: facies?,
-        })
+        };
+        // What is not drawn is known to fail now.
+        if let Some(Err(error)) = spec.constant().map(|design| design.check()) {
+            keys.checker.reader.wrong(
+                node,
+                format!("{}: {error}", keys.draft.name),
+                "change `radius`, `limb` or `beds`",
+            );
+            return None;
+        }
+        Some(spec)
     }
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
@@ -199,6 +211,26 @@ impl Kind for FoldedBedsSpec {
     }
 }
 
+impl FoldedBedsSpec {
+    /// The fold, if nothing about its shape is drawn; about the origin.
+    fn constant(&self) -> Option<FoldedBedsDesign> {
+        let thickness = self.beds.iter().map(Quantity::constant);
+        let base = match &self.base_offset {
+            Some(base) => Some(base.constant()?),
+            None => None,
+        };
+        Some(FoldedBedsDesign {
+            center: DVec3::ZERO,
+            azimuth: 0.0,
+            interlimb: self.interlimb_deg.constant()?.to_radians(),
+            radius: self.radius.constant()?,
+            limb: self.limb.constant()?,
+            base,
+            thickness: thickness.collect::<Option<_>>()?,
+        })
+    }
+}
+
 /// What a fold is called: by the angle between its limbs, and by the dip of its axial planes (Fleuty 1964).
 fn told(design: &FoldedBedsDesign) -> String {
     let interlimb = design.interlimb.to_degrees();
@@ -227,8 +259,8 @@ fn told(design: &FoldedBedsDesign) -> String {
 }
 
 impl Keys<'_, '_> {
-    /// The thickness of each bed.
-    fn bed_thickness(&self, field: Field<Any>) -> Option<Vec<Quantity>> {
+    /// The thickness of each bed, with its place.
+    fn bed_thickness(&self, field: Field<Any>) -> Option<(NodeId, Vec<Quantity>)> {
         let (list, Any) = self.need(field, "beds", "beds = [10, 15, 10]")?;
         let reader = &self.checker.reader;
         let remedy = "write the thickness of each bed in [ ], the oldest first: [10, 15, 10]";
@@ -255,6 +287,7 @@ impl Keys<'_, '_> {
         };
         // All are looked at, so that one slip hides no other.
         let all: Vec<Option<Quantity>> = nodes.iter().enumerate().map(one).collect();
-        all.into_iter().collect()
+        let all: Option<Vec<Quantity>> = all.into_iter().collect();
+        Some((list, all?))
     }
 }
