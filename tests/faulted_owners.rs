@@ -104,10 +104,15 @@ impl<'a> History<'a> {
             ..Selection::default()
         };
         let realisation = Realisation::new(&model(text), &selection).unwrap();
-        let interiors = realisation.instances.iter().map(|one| Interior::of(&one.body).unwrap());
+        let interiors = realisation
+            .instances
+            .iter()
+            .map(|one| Interior::of(&one.body).unwrap());
         Self {
             interiors: interiors.collect(),
-            volumes: (0..entries.len()).map(|at| realisation.volume(&format!("e{at}"))).collect(),
+            volumes: (0..entries.len())
+                .map(|at| realisation.volume(&format!("e{at}")))
+                .collect(),
             entries,
             realisation,
         }
@@ -135,7 +140,10 @@ impl<'a> History<'a> {
             return true;
         };
         // Directly before it, so that nothing has moved that one since.
-        match at.checked_sub(1).and_then(|master| fault(&self.entries[master], p)) {
+        match at
+            .checked_sub(1)
+            .and_then(|master| fault(&self.entries[master], p))
+        {
             Some((is_above, _)) => is_above == wanted,
             None => true,
         }

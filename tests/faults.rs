@@ -62,7 +62,11 @@ fn blocks_of_one_fault_have_the_volumes_of_their_prisms() {
             let [low, high] = [levels[bed], levels[bed + 1]];
             let foot = at(0.5 * (low + high)) * (high - low) * 800.0;
             let moved = |z: f64| {
-                if z == -100.0 || z == 0.0 { z } else { z - THROW }
+                if z == -100.0 || z == 0.0 {
+                    z
+                } else {
+                    z - THROW
+                }
             };
             let [low, high] = [moved(low), moved(high)];
             let hanging = (1000.0 - at(0.5 * (low + high))) * (high - low) * 800.0;
@@ -111,7 +115,10 @@ fn a_conjugate_pair_moves_beds_as_the_sequence_says_and_offsets_the_older_fault(
             built.realisation.volumes[owner].block.name.clone()
         };
         let [left, right] = [name(-1e-6), name(1e-6)];
-        assert!(left.starts_with("a.fw") && right.starts_with("a.hw"), "{left} {right}");
+        assert!(
+            left.starts_with("a.fw") && right.starts_with("a.hw"),
+            "{left} {right}"
+        );
     }
 }
 
@@ -161,10 +168,16 @@ fn a_fault_ends_on_its_master() {
         );
         let built = built(&text, &[], Engine::Partition);
         for block in blocks {
-            assert!(built.size(&format!("upper@{block}")) > 0.0, "{side}: {block}");
+            assert!(
+                built.size(&format!("upper@{block}")) > 0.0,
+                "{side}: {block}"
+            );
         }
         let other = if side == "footwall" { "a.hw" } else { "a.fw" };
-        assert!(built.size(&format!("upper@{other}")) > 0.0, "{side}: {other}");
+        assert!(
+            built.size(&format!("upper@{other}")) > 0.0,
+            "{side}: {other}"
+        );
         assert_eq!(built.pieces(&format!("upper@{other}")), 1);
     }
 }

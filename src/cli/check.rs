@@ -255,10 +255,15 @@ fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
 
 /// What moves what is older, in words, the oldest first.
 fn events(model: &Model) -> Vec<String> {
-    let events = model.features.iter().filter(|one| one.enabled && one.kind.nature().is_event());
+    let events = model
+        .features
+        .iter()
+        .filter(|one| one.enabled && one.kind.nature().is_event());
     let words = |event: &Feature| {
         let does = match &event.kind {
-            FeatureKind::Fault(_) => "parts all that is older in blocks, and moves its hanging wall",
+            FeatureKind::Fault(_) => {
+                "parts all that is older in blocks, and moves its hanging wall"
+            }
             _ => "moves all that is older",
         };
         format!("{} ({}): {does}", event.id, event.kind.name())

@@ -127,8 +127,7 @@ fn volumes(report: &Report) -> comfy_table::Table {
     volumes.load_style(comfy_table::presets::NOTHING);
     volumes.set_header(["volume", "facies", "solids", "volume (m³)", "share"]);
     // Of what faults part, most blocks have some volumes that are nowhere in them.
-    let is_there =
-        |volume: &&VolumeEntry| volume.block.is_none() || !volume.solids.is_empty();
+    let is_there = |volume: &&VolumeEntry| volume.block.is_none() || !volume.solids.is_empty();
     for volume in report.volumes.iter().filter(is_there).take(MOST_ROWS) {
         volumes.add_row([
             match &volume.display_name {

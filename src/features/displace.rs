@@ -21,6 +21,10 @@ use crate::nurbs::{Curve, KnotVector, PROBES, Surface, SurfaceError};
 
 /// Rounds of halving.
 const ROUNDS: usize = 14;
+/// From this round on, sheets that did not come nearer by this factor since three rounds before will not come near: halving would have
+/// made it 8 at least where the displacement has no jumps.
+const PATIENT: usize = 7;
+const NEARER: f64 = 0.5;
 /// Most control points of a sheet.
 const MOST_POINTS: usize = 250_000;
 /// How far apart sides may be that are one, as a fraction of the sheets' size.
@@ -103,7 +107,8 @@ impl<E: std::error::Error> Displacement<'_, E> {
             .flat_map(|(role, pieces)| pieces.into_iter().map(move |piece| (role, piece)));
         let mut sheets = evened(pieces.collect(), same, self.degree)?;
         let mut reached = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        let mut history = Vec::with_capacity(ROUNDS);
+        for round in 0..ROUNDS {
             let moved = sheets
                 .iter()
                 .map(|(role, sheet)| self.one(sheet, (self.tolerance)(*role)))
@@ -118,8 +123,10 @@ impl<E: std::error::Error> Displacement<'_, E> {
                     deviation: reached,
                 });
             }
+            history.push(reached);
+            let stays = round >= PATIENT && reached > NEARER * history[round - 3];
             let largest = sheets.iter().map(|sheet| sheet.1.net().len()).max();
-            if largest.unwrap_or(0) > MOST_POINTS {
+            if stays || largest.unwrap_or(0) > MOST_POINTS {
                 break;
             }
             for (sheet, one) in sheets.iter_mut().zip(&moved) {

@@ -54,7 +54,10 @@ pub fn slab(
     let sheet = fault.sheet(low, high, margin)?;
     if fault.dip().is_some() {
         let normal = fault.normal(fault.through());
-        return prism(&sheet.mapped(|p| p - below * normal)?, (below + above) * normal);
+        return prism(
+            &sheet.mapped(|p| p - below * normal)?,
+            (below + above) * normal,
+        );
     }
     check_bends(fault, below.max(above), [low, high])?;
     let thickness = below + above;
@@ -90,11 +93,7 @@ fn prism(base: &Surface, by: DVec3) -> Result<Shell, ZoneError> {
 }
 
 /// Whether a fault bends gently enough for offsets, in a box.
-fn check_bends(
-    fault: &FaultSurface,
-    thick: f64,
-    [low, high]: [DVec3; 2],
-) -> Result<(), ZoneError> {
+fn check_bends(fault: &FaultSurface, thick: f64, [low, high]: [DVec3; 2]) -> Result<(), ZoneError> {
     let reach = (high - low).xy().length();
     let middle = 0.5 * (low + high).xy();
     let step = reach / ASKED as f64;
@@ -149,12 +148,18 @@ mod tests {
     fn a_zone_is_as_thick_as_it_should_be_on_planes_and_along_bends() {
         let through = DVec3::new(300.0, 100.0, 0.0);
         let azimuth = 1.3;
-        check(&FaultSurface::planar(through, 1.1, azimuth).unwrap(), [2.0, 3.0]);
+        check(
+            &FaultSurface::planar(through, 1.1, azimuth).unwrap(),
+            [2.0, 3.0],
+        );
         check(
             &FaultSurface::planar(through, std::f64::consts::FRAC_PI_2, azimuth).unwrap(),
             [2.0, 3.0],
         );
-        check(&FaultSurface::circular(through, 1.0, azimuth, 250.0).unwrap(), [4.0, 1.5]);
+        check(
+            &FaultSurface::circular(through, 1.0, azimuth, 250.0).unwrap(),
+            [4.0, 1.5],
+        );
         check(
             &FaultSurface::exponential(through, 1.0, azimuth, 250.0).unwrap(),
             [4.0, 1.5],
@@ -166,6 +171,8 @@ mod tests {
         let fault = FaultSurface::circular(DVec3::new(300.0, 100.0, 0.0), 1.0, 1.3, 100.0).unwrap();
         let error = slab(&fault, [150.0, 1.0], BOX, 50.0, 1e-3).unwrap_err();
         let radius = 100.0 / (1.0 - 1_f64.cos());
-        assert!(matches!(error, ZoneError::Bent { radius: found, .. } if (found / radius - 1.0).abs() < 0.1));
+        assert!(
+            matches!(error, ZoneError::Bent { radius: found, .. } if (found / radius - 1.0).abs() < 0.1)
+        );
     }
 }

@@ -22,6 +22,7 @@ mod fan;
 pub mod fault_surface;
 pub mod fault_zone;
 pub mod fitted;
+pub mod folded_beds;
 pub mod frame;
 pub mod free_clinoform;
 pub mod honouring;

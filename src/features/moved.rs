@@ -174,11 +174,7 @@ impl Side {
 
     /// A closed shell of what it holds in a box, and beyond it: sheets of its own role, and hidden ones. A plane is a sheet whose u runs along a
     /// direction, if one is given: what bends along that alone needs no more control points across it.
-    fn closed(
-        &self,
-        [low, high]: [DVec3; 2],
-        along: Option<DVec2>,
-    ) -> Result<Shell, MoveError> {
+    fn closed(&self, [low, high]: [DVec3; 2], along: Option<DVec2>) -> Result<Shell, MoveError> {
         let margin = FAR * (high - low).max_element();
         let role = self.role();
         match self.ends() {
@@ -197,7 +193,9 @@ impl Side {
                     corner(1.0, -1.0),
                     corner(1.0, 1.0),
                 ];
-                let most = corners.iter().fold(high.z, |most, corner| most.max(corner.z));
+                let most = corners
+                    .iter()
+                    .fold(high.z, |most, corner| most.max(corner.z));
                 Ok(upright(role, &Surface::bilinear(corners)?, most + margin)?)
             }
             Ends::Plan(sheet) => {
@@ -301,7 +299,8 @@ fn heights(
     after.reverse();
     for (k, motion) in motions.all().iter().enumerate() {
         let (horizon, deviation) = &moved;
-        let Some((next, more)) = one_by_one(horizon, motion, [after[k], after[k + 1]], share, reliefs)?
+        let Some((next, more)) =
+            one_by_one(horizon, motion, [after[k], after[k + 1]], share, reliefs)?
         else {
             return Ok(None);
         };

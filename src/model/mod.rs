@@ -67,6 +67,7 @@ pub use kinds::clinoforms::{Belt, ClinoformsSpec, Interfingering};
 pub use kinds::ellipsoid::EllipsoidSpec;
 pub use kinds::fault::{Damage, FaultSpec, Slip, Tip, Zone};
 pub use kinds::fold::{FoldSpec, Folds};
+pub use kinds::folded_beds::FoldedBedsSpec;
 pub use kinds::horizon::HorizonSpec;
 pub use kinds::lag::LagSpec;
 pub use kinds::levee::LeveeSpec;

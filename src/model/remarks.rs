@@ -203,8 +203,7 @@ pub fn say_empty(
         .flat_map(|remark| remark.volumes.iter().copied())
         .collect();
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    let is_counted =
-        |one: &&VolumeRules| one.piece_of.is_none() && one.block.within.is_none();
+    let is_counted = |one: &&VolumeRules| one.piece_of.is_none() && one.block.within.is_none();
     for volume in volumes.iter().filter(is_counted) {
         *counts.entry(&volume.feature).or_default() += 1;
     }

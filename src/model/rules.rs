@@ -265,8 +265,13 @@ impl Rules {
     /// What a body does to a holder of a place inside it.
     pub fn verdict(&self, body: usize, holder: usize) -> Verdict {
         let rules = &self.volumes[body];
-        if rules.within.is_some_and(|ground| !self.lies_in(holder, ground))
-            || rules.outside.iter().any(|ground| self.lies_in(holder, *ground))
+        if rules
+            .within
+            .is_some_and(|ground| !self.lies_in(holder, ground))
+            || rules
+                .outside
+                .iter()
+                .any(|ground| self.lies_in(holder, *ground))
         {
             Verdict::OtherBlock
         } else if rules.is_ground {

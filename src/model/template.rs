@@ -70,6 +70,8 @@ pub const TEMPLATES: &[Template] = templates! {
     "fig06b-scour" / "scour-field": "twelve scours of random sizes, places and directions",
     "fig09-warp": "a scour down a clinoform, and concretions at a depth below one",
 
+    "parallel-fold": "five beds of constant thickness in a recumbent fold",
+
     "clinoforms": "six clinoforms of one set, with facies belts",
     "fig06c-clinoforms": "clinoforms of one template along a winding crest",
     "fig08b-facies": "belts that end on the clinoforms below and above them",

@@ -207,7 +207,10 @@ impl Tracks {
             let crowded = |at: usize| {
                 let before = at.checked_sub(1).map(|before| &cuts[before]);
                 let after = cuts.get(at + 1);
-                [before, after].into_iter().flatten().any(|other| are_one(&cuts[at], other))
+                [before, after]
+                    .into_iter()
+                    .flatten()
+                    .any(|other| are_one(&cuts[at], other))
             };
             let own = track.sheets.map(|sheet| regions.sheets[sheet].region);
             let bounds = |at: usize| {

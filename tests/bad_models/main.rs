@@ -17,6 +17,7 @@ mod data;
 mod ellipsoids;
 mod faults;
 mod files;
+mod folded_beds;
 mod keys;
 mod lags;
 mod likes;

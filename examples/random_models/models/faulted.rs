@@ -42,7 +42,11 @@ pub(super) fn model(draws: &mut Draws) -> Table {
     if draws.chance(0.25) {
         let fault = features.len() - 1;
         let side = draws.pick(&["hanging-wall", "footwall"]);
-        set(&mut features[fault], "ends_on", table([("fault", "fault-0".into()), ("side", side.into())]));
+        set(
+            &mut features[fault],
+            "ends_on",
+            table([("fault", "fault-0".into()), ("side", side.into())]),
+        );
     }
     if draws.chance(0.4) {
         let seal = block.elevation(draws.within(0.75, 0.9));
@@ -75,18 +79,30 @@ fn fault(draws: &mut Draws, block: &Block, id: &str, azimuth: f64, middle: [f64;
     ];
     if draws.chance(0.3) {
         let mut listric = table(plane);
-        set(&mut listric, "depth", rounded(height * draws.within(0.6, 4.0), 5));
+        set(
+            &mut listric,
+            "depth",
+            rounded(height * draws.within(0.6, 4.0), 5),
+        );
         if draws.chance(0.4) {
             set(&mut listric, "form", "exponential");
         }
         set(&mut fault, "surface", table([("listric", listric.into())]));
-        set(&mut fault, "heave", rounded(throw / dip.to_radians().tan(), 4));
+        set(
+            &mut fault,
+            "heave",
+            rounded(throw / dip.to_radians().tan(), 4),
+        );
         if draws.chance(0.3) {
             set(&mut fault, "shear_deg", rounded(draws.within(0.0, 25.0), 3));
         }
         return fault;
     }
-    set(&mut fault, "surface", table([("dipping", table(plane).into())]));
+    set(
+        &mut fault,
+        "surface",
+        table([("dipping", table(plane).into())]),
+    );
     if draws.chance(0.2) {
         // Along strike, as far from the fault's ends as it takes.
         let along: Vec<Value> = [0.0, 0.5, 1.0]
@@ -98,7 +114,11 @@ fn fault(draws: &mut Draws, block: &Block, id: &str, azimuth: f64, middle: [f64;
         set(&mut fault, "throw", rounded(throw, 4));
     }
     if draws.chance(0.2) {
-        set(&mut fault, "rake_deg", draws.pick(&[90.0, -60.0, -110.0, 70.0]));
+        set(
+            &mut fault,
+            "rake_deg",
+            draws.pick(&[90.0, -60.0, -110.0, 70.0]),
+        );
     }
     fault
 }
@@ -118,7 +138,11 @@ pub(super) fn round(draws: &mut Draws) -> Table {
     }
     if draws.chance(0.4) {
         let mut nodule = feature("nodule", "ellipsoid", "gravel");
-        set(&mut nodule, "center", vec![200.0, 150.0, draws.pick(&[-40.0, -30.0, -25.0])]);
+        set(
+            &mut nodule,
+            "center",
+            vec![200.0, 150.0, draws.pick(&[-40.0, -30.0, -25.0])],
+        );
         set(&mut nodule, "semi_axes", vec![40.0, 30.0, 10.0]);
         features.push(nodule);
     }
@@ -153,8 +177,15 @@ pub(super) fn round(draws: &mut Draws) -> Table {
             ("dip_deg", draws.pick(&[90.0, 60.0, 45.0]).into()),
             ("azimuth_deg", azimuth.into()),
         ];
-        let mut fault = table([("id", format!("fault-{at}").into()), ("kind", "fault".into())]);
-        set(&mut fault, "surface", table([("dipping", table(plane).into())]));
+        let mut fault = table([
+            ("id", format!("fault-{at}").into()),
+            ("kind", "fault".into()),
+        ]);
+        set(
+            &mut fault,
+            "surface",
+            table([("dipping", table(plane).into())]),
+        );
         set(&mut fault, "throw", draws.pick(&[5.0, 10.0, 20.0]));
         if draws.chance(0.2) {
             set(&mut fault, "rake_deg", 90.0);
@@ -178,7 +209,11 @@ pub(super) fn folded(draws: &mut Draws) -> Table {
     for at in 0..beds {
         let part = 0.2 + 0.5 * (at as f64 + draws.within(0.2, 0.8)) / beds as f64;
         let mut bed = feature(&format!("bed-{at}"), "horizon", draws.pick(&FACIES));
-        set(&mut bed, "surface", table([("level", rounded(block.elevation(part), 7).into())]));
+        set(
+            &mut bed,
+            "surface",
+            table([("level", rounded(block.elevation(part), 7).into())]),
+        );
         features.push(bed);
     }
     if draws.chance(0.5) {
@@ -191,22 +226,39 @@ pub(super) fn folded(draws: &mut Draws) -> Table {
         features.insert(place, body);
     }
     let mut fold = table([("id", "fold".into()), ("kind", "fold".into())]);
-    set(&mut fold, "azimuth_deg", rounded(draws.within(0.0, 360.0), 5));
+    set(
+        &mut fold,
+        "azimuth_deg",
+        rounded(draws.within(0.0, 360.0), 5),
+    );
     if draws.chance(0.6) {
         let axial = draws.within(8.0, 35.0);
         let overhangs = 1.0 / (axial.to_radians().sin() * axial.to_radians().cos());
         let pair = [
             ("height", rounded(height * draws.within(0.2, 0.5), 4).into()),
-            ("tightness", rounded(overhangs * draws.within(1.3, 3.0), 4).into()),
+            (
+                "tightness",
+                rounded(overhangs * draws.within(1.3, 3.0), 4).into(),
+            ),
         ];
         set(&mut fold, "axial_dip_deg", rounded(axial, 4));
         set(&mut fold, "pair", table(pair));
     } else {
         let train = [
-            ("amplitude", rounded(height * draws.within(0.05, 0.3), 4).into()),
-            ("wavelength", rounded(east.max(north) * draws.within(0.3, 1.0), 4).into()),
+            (
+                "amplitude",
+                rounded(height * draws.within(0.05, 0.3), 4).into(),
+            ),
+            (
+                "wavelength",
+                rounded(east.max(north) * draws.within(0.3, 1.0), 4).into(),
+            ),
         ];
-        set(&mut fold, "axial_dip_deg", rounded(draws.within(60.0, 90.0), 4));
+        set(
+            &mut fold,
+            "axial_dip_deg",
+            rounded(draws.within(60.0, 90.0), 4),
+        );
         set(&mut fold, "train", table(train));
     }
     features.push(fold);

@@ -187,7 +187,10 @@ pub(super) fn units(parts: Parts<'_>) -> Vec<UnitEntry> {
     }
     let unit_of = |volume: usize| {
         let unit = unit_of(volume);
-        wholes.get(volumes[unit].unfaulted_name()).copied().unwrap_or(unit)
+        wholes
+            .get(volumes[unit].unfaulted_name())
+            .copied()
+            .unwrap_or(unit)
     };
     let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for volume in 0..volumes.len() {

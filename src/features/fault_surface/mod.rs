@@ -21,7 +21,7 @@ use super::horizon::{Horizon, HorizonError};
 use super::shell::ShellError;
 use super::side::{Ends, HorizonSheet, Open, Side};
 use super::swept::Swept;
-use crate::nurbs::{KnotError, KnotVector, Surface, SurfaceError};
+use crate::nurbs::{KnotError, KnotVector, RefineError, Surface, SurfaceError};
 
 /// What faults are called as sheets.
 const NAME: &str = "fault";
@@ -66,6 +66,9 @@ pub enum FaultError {
     /// The sheet is no surface.
     #[error("the fault's sheet is no surface: {0}")]
     Surface(#[from] SurfaceError),
+    /// The sheet cannot be cut.
+    #[error("the fault's sheet cannot be cut: {0}")]
+    Cut(#[from] RefineError),
     /// The side above it cannot be closed.
     #[error("the side above the fault cannot be closed: {0}")]
     Shell(#[from] ShellError),
@@ -333,7 +336,12 @@ impl FaultSurface {
                     }
                 }
                 let v = KnotVector::uniform(1, 2)?;
-                Ok(Surface::rational(net.knots, v, points, weights)?)
+                let sheet = Surface::rational(net.knots, v, points, weights)?;
+                Ok(match profile {
+                    Profile::Circular { .. } => sheet,
+                    // x′ is its parameter: what is bent far from the box is left out.
+                    Profile::Spline { .. } => within(sheet, first, last)?,
+                })
             }
             Shape::Graph(horizon) => {
                 let wide = DVec3::new(margin, margin, 0.0);
@@ -370,6 +378,19 @@ impl FaultSurface {
         };
         Ok(Side::new(Role::Open(NAME), Arc::new(open), ends))
     }
+}
+
+/// The part of a sheet between two u, as far as they are inside.
+fn within(sheet: Surface, from: f64, to: f64) -> Result<Surface, RefineError> {
+    let (first, last) = sheet.knots_u().domain();
+    let mut part = sheet;
+    if from > first {
+        part = part.split_u(from)?.1;
+    }
+    if to < last {
+        part = part.split_u(to)?.0;
+    }
+    Ok(part)
 }
 
 /// The corners of a box.

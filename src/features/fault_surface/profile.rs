@@ -4,9 +4,9 @@ use crate::nurbs::interpolate::{self, InterpolateError};
 use crate::nurbs::{Function, KnotError, KnotVector};
 
 /// Pieces of the spline that stands for an exponential, and how many of its characteristic lengths they cover. Cubic interpolation is
-/// then within 1e-6 of the depth; beyond, it is flat to 1/3000 of its dip, and goes on straight.
-const PIECES: usize = 64;
-const LENGTHS: f64 = 8.0;
+/// then within 1e-6 of the depth; beyond, it is flat to 1/160,000 of its dip, and goes on straight.
+const PIECES: usize = 96;
+const LENGTHS: f64 = 12.0;
 /// Most that a spline's degree is.
 const DEGREE: usize = 3;
 

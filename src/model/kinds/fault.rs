@@ -413,9 +413,8 @@ impl Keys<'_, '_> {
         let reader = &self.checker.reader;
         let file: TipFile = reader.table(node)?;
         reader.close(node, &what);
-        let number = |at: NodeId, key: &str| {
-            quantity(reader, at, &format!("the {key} of {what}"), POSITIVE)
-        };
+        let number =
+            |at: NodeId, key: &str| quantity(reader, at, &format!("the {key} of {what}"), POSITIVE);
         let length = reader.need(file.length, node, &what, "length", "length = 4000");
         let length = length.and_then(|(at, Any)| number(at, "length"));
         let height = good(file.height, |at| number(at, "height"));
@@ -449,12 +448,14 @@ impl Keys<'_, '_> {
         let file: ZoneFile = reader.table(node)?;
         reader.close(node, &what);
         let facies = reader.need(file.facies, node, &what, "facies", "facies = \"gouge\"");
-        let facies = facies
-            .and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
+        let facies =
+            facies.and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
         let thickness = good(file.thickness, |at| {
             quantity(reader, at, &format!("the thickness of {what}"), POSITIVE)
         });
-        let damage = good(file.damage, |at| self.damage(at, &format!("the damage of {what}")));
+        let damage = good(file.damage, |at| {
+            self.damage(at, &format!("the damage of {what}"))
+        });
         Some(Zone {
             facies: facies?,
             thickness: thickness?,
@@ -467,13 +468,18 @@ impl Keys<'_, '_> {
         let file: DamageFile = reader.table(node)?;
         reader.close(node, what);
         let facies = reader.need(file.facies, node, what, "facies", "facies = \"fractured\"");
-        let facies = facies
-            .and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
+        let facies =
+            facies.and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
         let width = good(file.width, |at| {
             quantity(reader, at, &format!("the width of {what}"), POSITIVE)
         });
         let share = good(file.hanging_share, |at| {
-            quantity(reader, at, &format!("the hanging_share of {what}"), FRACTION)
+            quantity(
+                reader,
+                at,
+                &format!("the hanging_share of {what}"),
+                FRACTION,
+            )
         });
         Some(Damage {
             facies: facies?,
@@ -507,7 +513,11 @@ impl Keys<'_, '_> {
         }
         if let Some(tip) = tip {
             if !is_plane {
-                return wrong(tip, format!("{name} has a tip, but is no plane"), "leave it out");
+                return wrong(
+                    tip,
+                    format!("{name} has a tip, but is no plane"),
+                    "leave it out",
+                );
             }
             let (Slip::Throw(profile) | Slip::Displacement(profile) | Slip::Heave(profile)) = slip;
             if !matches!(profile, Profile::Quantity(_)) {
@@ -531,7 +541,9 @@ impl Keys<'_, '_> {
     /// A fault that comes before it in the list.
     fn older_fault(&self, node: NodeId, id: &str, key: &str) -> Option<Reference> {
         let what = self.what(key);
-        let reference = self.checker.refer(node, id, &what, Gives::Fault, self.family)?;
+        let reference = self
+            .checker
+            .refer(node, id, &what, Gives::Fault, self.family)?;
         if reference.feature > self.family.own {
             self.checker.reader.wrong(
                 node,
@@ -579,7 +591,10 @@ impl Keys<'_, '_> {
         }
         self.checker.reader.wrong(
             node,
-            format!("{} is {tolerance}; it must be above 0", self.what("tolerance")),
+            format!(
+                "{} is {tolerance}; it must be above 0",
+                self.what("tolerance")
+            ),
             "write how far what it moves may be from where it should be, in metres, as 0.01",
         );
         None
@@ -660,7 +675,9 @@ impl Slipped {
         let fractions: Vec<f64> = match &profile {
             Along::Constant(_) => vec![0.0],
             Along::Along(pairs) => pairs.iter().map(|pair| pair.0).collect(),
-            Along::Function(_) => (0..ASKED).map(|k| f64::from(k) / f64::from(ASKED - 1)).collect(),
+            Along::Function(_) => (0..ASKED)
+                .map(|k| f64::from(k) / f64::from(ASKED - 1))
+                .collect(),
         };
         let ends = fractions.iter().map(|fraction| value(*fraction));
         if ends.clone().any(|slip| slip > 0.0)
@@ -674,7 +691,9 @@ impl Slipped {
                 ),
             ));
         }
-        let places = fractions.iter().map(|fraction| [at(*fraction), value(*fraction) + self.more]);
+        let places = fractions
+            .iter()
+            .map(|fraction| [at(*fraction), value(*fraction) + self.more]);
         Ok(places.collect())
     }
 
@@ -682,7 +701,12 @@ impl Slipped {
     fn strike(&self) -> [f64; 2] {
         let (strike, through) = (self.surface.strike(), self.surface.through().xy());
         let [low, high] = self.domain;
-        let corners = [low.xy(), high.xy(), DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)];
+        let corners = [
+            low.xy(),
+            high.xy(),
+            DVec2::new(low.x, high.y),
+            DVec2::new(high.x, low.y),
+        ];
         let along = corners.map(|corner| (corner - through).dot(strike));
         let [least, most] = [f64::min, f64::max].map(|pick| along.into_iter().reduce(pick));
         [least.unwrap_or(0.0), most.unwrap_or(0.0)]
@@ -697,12 +721,18 @@ impl Slipped {
         };
         let semi_axes = [0.5 * length, 0.5 * height];
         // An ellipse holds a polygon if it holds its corners.
-        if let Some((place, r)) = self.farthest(semi_axes).filter(|farthest| farthest.1 >= 1.0) {
+        if let Some((place, r)) = self
+            .farthest(semi_axes)
+            .filter(|farthest| farthest.1 >= 1.0)
+        {
             return Err((
                 "tip in the domain",
                 format!(
                     "its tip line lies in the domain, near ({:.1}, {:.1}, {:.1}); a fault that ends inside the domain is not modelled: make the tip {:.2} times as large or more",
-                    place.x, place.y, place.z, 1.01 * r
+                    place.x,
+                    place.y,
+                    place.z,
+                    1.01 * r
                 ),
             ));
         }
@@ -712,7 +742,10 @@ impl Slipped {
     /// The place of the fault in the domain that is farthest from its point, in semi-axes of an ellipse.
     fn farthest(&self, [length, height]: [f64; 2]) -> Option<(DVec3, f64)> {
         let (through, down) = (self.surface.through(), self.surface.down_dip()?);
-        let (normal, strike) = (self.surface.normal(through), self.surface.strike().extend(0.0));
+        let (normal, strike) = (
+            self.surface.normal(through),
+            self.surface.strike().extend(0.0),
+        );
         let [low, high] = self.domain;
         let corner = |k: usize| {
             let part = |axis: usize| if k >> axis & 1 == 1 { high } else { low }[axis];
@@ -762,7 +795,9 @@ impl Slipped {
                     "no damage beside the core",
                     format!(
                         "its damage reaches {:.3} m into the footwall and {:.3} m into the hanging wall, but its core {:.3} m; make the damage wider",
-                        reach[0], reach[1], 0.5 * thickness
+                        reach[0],
+                        reach[1],
+                        0.5 * thickness
                     ),
                 ));
             }

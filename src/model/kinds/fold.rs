@@ -142,7 +142,8 @@ impl Kind for FoldSpec {
                     Some(_) => format!("{name} has both `train` and `pair`"),
                     None => format!("{name} has no folds"),
                 };
-                let remedy = "write train = { amplitude = 20, wavelength = 400 } or pair = { height = 60 }";
+                let remedy =
+                    "write train = { amplitude = 20, wavelength = 400 } or pair = { height = 60 }";
                 keys.checker.reader.wrong(node, message, remedy);
                 None
             }
@@ -160,8 +161,12 @@ impl Kind for FoldSpec {
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
         let through = site.event_point(self.through.as_ref(), draws)?;
-        let azimuth = draws.quantity(&self.azimuth_deg, "azimuth_deg")?.to_radians();
-        let axial_dip = draws.quantity(&self.axial_dip_deg, "axial_dip_deg")?.to_radians();
+        let azimuth = draws
+            .quantity(&self.azimuth_deg, "azimuth_deg")?
+            .to_radians();
+        let axial_dip = draws
+            .quantity(&self.axial_dip_deg, "axial_dip_deg")?
+            .to_radians();
         let plunge = draws.quantity(&self.plunge_deg, "plunge_deg")?.to_radians();
         // Where contacts coincide folds are a little higher, so that beds come to lie along none.
         let more = -site.nudge;
@@ -191,7 +196,9 @@ impl Kind for FoldSpec {
             plunge,
             shape,
         };
-        let motion = design.build().map_err(|error| ("no fold", error.to_string()))?;
+        let motion = design
+            .build()
+            .map_err(|error| ("no fold", error.to_string()))?;
         Ok(Made::moving(motion, self.tolerance))
     }
 }

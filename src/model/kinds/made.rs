@@ -59,7 +59,8 @@ impl<'a> Site<'a> {
 
     /// How far surfaces must reach beyond the domain in plan because events bring what is there into it (m).
     pub(crate) fn beyond(&self) -> f64 {
-        let beyond = |domain: [f64; 2], room: [f64; 2]| (domain[0] - room[0]).max(room[1] - domain[1]);
+        let beyond =
+            |domain: [f64; 2], room: [f64; 2]| (domain[0] - room[0]).max(room[1] - domain[1]);
         beyond(self.domain.x, self.room.x).max(beyond(self.domain.y, self.room.y))
     }
 

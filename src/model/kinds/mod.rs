@@ -10,11 +10,12 @@ pub(crate) mod channel;
 pub(crate) mod clinoform;
 pub(crate) mod clinoforms;
 pub(crate) mod ellipsoid;
-pub(crate) mod horizon;
-pub(crate) mod keys;
 mod event;
 pub(crate) mod fault;
 pub(crate) mod fold;
+pub(crate) mod folded_beds;
+pub(crate) mod horizon;
+pub(crate) mod keys;
 mod kind;
 pub(crate) mod lag;
 pub(crate) mod levee;
@@ -47,6 +48,7 @@ use clinoforms::ClinoformsSpec;
 use ellipsoid::EllipsoidSpec;
 use fault::FaultSpec;
 use fold::FoldSpec;
+use folded_beds::FoldedBedsSpec;
 use horizon::HorizonSpec;
 use keys::Keys;
 use kind::Kind;
@@ -197,6 +199,8 @@ kinds! {
     Sheet(SheetSpec),
     /// A closed body from control nets of one's own.
     Body(BodySpec),
+    /// A stack of beds of constant thickness, in a fold.
+    FoldedBeds(FoldedBedsSpec),
     /// Wedges on the banks of a channel.
     Levee(LeveeSpec),
     /// A lobe of what a flood carried through a bank of a channel.

@@ -96,8 +96,13 @@ impl Kind for ShearSpec {
 
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
         let through = site.event_point(self.through.as_ref(), draws)?;
-        let slope = draws.quantity(&self.angle_deg, "angle_deg")?.to_radians().tan();
-        let azimuth = draws.quantity(&self.azimuth_deg, "azimuth_deg")?.to_radians();
+        let slope = draws
+            .quantity(&self.angle_deg, "angle_deg")?
+            .to_radians()
+            .tan();
+        let azimuth = draws
+            .quantity(&self.azimuth_deg, "azimuth_deg")?
+            .to_radians();
         let towards = DVec3::new(azimuth.sin(), azimuth.cos(), 0.0);
         let (normal, by) = if self.is_upright {
             (towards, -slope * DVec3::Z)

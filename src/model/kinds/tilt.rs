@@ -61,7 +61,9 @@ impl Kind for TiltSpec {
     fn make(&self, site: &Site<'_>, draws: &mut Draws<'_>) -> Result<Made, Reason> {
         let through = site.event_point(self.through.as_ref(), draws)?;
         let dip = draws.quantity(&self.dip_deg, "dip_deg")?.to_radians();
-        let azimuth = draws.quantity(&self.azimuth_deg, "azimuth_deg")?.to_radians();
+        let azimuth = draws
+            .quantity(&self.azimuth_deg, "azimuth_deg")?
+            .to_radians();
         let motion = Affine::tilt(through, dip, azimuth);
         let motion = motion.map_err(|error| ("no tilt", error.to_string()))?;
         Ok(Made::moving(motion, None))

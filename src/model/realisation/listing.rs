@@ -393,7 +393,9 @@ impl<'a> Listing<'a> {
                 feature.id, features[own].id
             ));
         }
-        let between = events.iter().find(|event| top.is_some_and(|top| **event < top));
+        let between = events
+            .iter()
+            .find(|event| top.is_some_and(|top| **event < top));
         if let (Some(event), Some(top), true) = (between, top, takes_part) {
             let [event, top] = [*event, top].map(|at| features[at].id.as_str());
             return Err(RealisationError::Impossible {

@@ -75,10 +75,7 @@ pub(super) fn make_all(model: &Model, list: &Listing<'_>) -> Result<Vec<Built>, 
                 .filter_map(|(reference, other)| Some((reference, of(*other)?)))
                 .collect();
             let room = room(model, due, one, &built);
-            let [lower, higher] = [
-                room.z[0] - model.domain.z[0],
-                room.z[1] - model.domain.z[1],
-            ];
+            let [lower, higher] = [room.z[0] - model.domain.z[0], room.z[1] - model.domain.z[1]];
             // What bounds the domain bounds nothing of what comes into it from beyond.
             let top = match &one.top {
                 Some(top) if one.is_top_of_domain => Some(top.lowered(-higher)),
@@ -116,7 +113,11 @@ fn room(model: &Model, due: &[Due], one: &Due, built: &[Option<Built>]) -> Domai
     let mut room = model.domain.clone();
     let (mut low, mut high) = room.corners();
     for event in one.events.iter().rev() {
-        let of_feature = due.iter().zip(built).rev().filter(|(due, _)| due.feature == *event);
+        let of_feature = due
+            .iter()
+            .zip(built)
+            .rev()
+            .filter(|(due, _)| due.feature == *event);
         for (_, made) in of_feature.filter(|(due, _)| due.takes_part) {
             let event = made.as_ref().and_then(|made| made.made.event.as_ref());
             if let Some(event) = event {
@@ -125,7 +126,10 @@ fn room(model: &Model, due: &[Due], one: &Due, built: &[Option<Built>]) -> Domai
             }
         }
     }
-    for (axis, range) in [&mut room.x, &mut room.y, &mut room.z].into_iter().enumerate() {
+    for (axis, range) in [&mut room.x, &mut room.y, &mut room.z]
+        .into_iter()
+        .enumerate()
+    {
         *range = [low[axis], high[axis]];
     }
     room

@@ -209,8 +209,16 @@ pub(crate) fn fault_surface(keys: &mut Keys<'_, '_>, node: NodeId) -> Option<Fau
             plane_of(keys, (node, &what), through, dip_deg, azimuth_deg)
                 .map(FaultSurfaceSpec::Plane)
         }
-        "listric" => listric(keys, table(file.listric)?, &format!("the listric of {what}")),
-        _ => section(keys, table(file.section)?, &format!("the section of {what}")),
+        "listric" => listric(
+            keys,
+            table(file.listric)?,
+            &format!("the listric of {what}"),
+        ),
+        _ => section(
+            keys,
+            table(file.section)?,
+            &format!("the section of {what}"),
+        ),
     }
 }
 
@@ -255,7 +263,14 @@ fn plane_of(
         None => Some(Quantity::Constant(USUAL_DIP)),
         Some(dip) => number(keys, of, dip, "dip_deg", "dip_deg = 60", DIP),
     };
-    let azimuth = number(keys, of, azimuth, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
+    let azimuth = number(
+        keys,
+        of,
+        azimuth,
+        "azimuth_deg",
+        "azimuth_deg = 90",
+        AZIMUTH,
+    );
     Some(FaultPlane {
         through: point?,
         dip_deg: dip?,
@@ -299,7 +314,14 @@ fn section(keys: &Keys<'_, '_>, node: NodeId, what: &str) -> Option<FaultSurface
     reader.close(node, what);
     let of = (node, what);
     let point = through(keys, of, file.through);
-    let azimuth_deg = number(keys, of, file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
+    let azimuth_deg = number(
+        keys,
+        of,
+        file.azimuth_deg,
+        "azimuth_deg",
+        "azimuth_deg = 90",
+        AZIMUTH,
+    );
     let example = "points = [[-200, 300], [0, 0], [300, -200]]";
     let (at, points) = reader.need(file.points, node, what, "points", example)?;
     let is_good = points.len() >= 2
@@ -362,7 +384,10 @@ impl FaultSurfaceSpec {
                 let event = site.other(other)?.made.event.as_ref();
                 let surface = event.and_then(|event| event.surface.clone());
                 return surface.ok_or_else(|| {
-                    ("no fault", "what it slips on is no fault with a surface".to_owned())
+                    (
+                        "no fault",
+                        "what it slips on is no fault with a surface".to_owned(),
+                    )
                 });
             }
             Self::Heights(heights) => {

@@ -123,7 +123,8 @@ impl Adding<'_> {
 
     /// Parts what is older in two blocks.
     fn part(&mut self, due: &Due, event: &Event, part: Part) -> Result<(), RealisationError> {
-        let [own, rest] = [Wall::Hanging, Wall::Foot].map(|wall| format!("{}.{}", due.name, wall.word()));
+        let [own, rest] =
+            [Wall::Hanging, Wall::Foot].map(|wall| format!("{}.{}", due.name, wall.word()));
         let again = self.again(due, event)?;
         let (roots, outside) = self.reach(due, event);
         let mut deviation = 0.0_f64;
@@ -179,16 +180,25 @@ impl Adding<'_> {
             return everywhere;
         };
         let is_copy = |one: &(&usize, &usize)| *one.1 == ground;
-        let grounds: Vec<usize> = self.grounds.iter().filter(is_copy).map(|one| *one.0).collect();
+        let grounds: Vec<usize> = self
+            .grounds
+            .iter()
+            .filter(is_copy)
+            .map(|one| *one.0)
+            .collect();
         match wall {
             Wall::Foot => (vec![BACKGROUND], grounds),
             Wall::Hanging => {
                 // A block within another one of them goes with that.
                 let is_outer = |own: &usize| {
                     let around = self.volumes.rules[*own].block.within;
-                    !around.is_some_and(|around| grounds.iter().any(|one| self.lies_in(around, *one)))
+                    !around
+                        .is_some_and(|around| grounds.iter().any(|one| self.lies_in(around, *one)))
                 };
-                (grounds.iter().copied().filter(is_outer).collect(), Vec::new())
+                (
+                    grounds.iter().copied().filter(is_outer).collect(),
+                    Vec::new(),
+                )
             }
         }
     }
@@ -236,7 +246,9 @@ impl Adding<'_> {
         };
         rename(&mut rules, name);
         self.volumes.rules.push(rules);
-        self.volumes.properties.push(self.volumes.properties[root].clone());
+        self.volumes
+            .properties
+            .push(self.volumes.properties[root].clone());
         self.volumes.instances.push(Instance {
             volume: ground,
             feature: due.feature,
@@ -261,16 +273,14 @@ impl Adding<'_> {
         for (&member, moved) in block.members.iter().zip(moved) {
             let of = &self.volumes.rules[member];
             let is_copied = |volume: Option<usize>| {
-                volume.is_none_or(|volume| {
-                    volume == BACKGROUND || copies.contains_key(&volume)
-                })
+                volume.is_none_or(|volume| volume == BACKGROUND || copies.contains_key(&volume))
             };
             let belongs = is_copied(of.parent) && is_copied(of.from) && is_copied(of.above);
             // What lies below a fault that slips again, and is older, is never above it; and what lies above it has gone with the
             // slip before this one.
             let has_gone = |ground: &usize| self.lies_in(member, *ground);
-            let is_below = again.is_some_and(|first| member < first)
-                || self.gone.iter().any(has_gone);
+            let is_below =
+                again.is_some_and(|first| member < first) || self.gone.iter().any(has_gone);
             if !belongs || is_below || !self.reaches(&moved.body, wall, event) {
                 continue;
             }
@@ -313,13 +323,17 @@ impl Adding<'_> {
                 drawn: instance.drawn.clone(),
                 rejected: 0,
             };
-            self.volumes.properties.push(self.volumes.properties[member].clone());
+            self.volumes
+                .properties
+                .push(self.volumes.properties[member].clone());
             self.volumes.rules.push(rules);
             self.volumes.instances.push(instance);
             self.unmoved.insert(volume, moved.from);
         }
         if let Some(first) = again {
-            let of_fault = copies.keys().filter(|one| self.grounds.get(*one) == Some(&first));
+            let of_fault = copies
+                .keys()
+                .filter(|one| self.grounds.get(*one) == Some(&first));
             self.gone.extend(of_fault);
         }
         self.add_pieces(&copies);
@@ -329,7 +343,12 @@ impl Adding<'_> {
     /// The copies of volumes are pieces of what those are pieces of.
     fn add_pieces(&mut self, copies: &BTreeMap<usize, usize>) {
         let mut firsts: Vec<usize> = self.pieces.keys().copied().collect();
-        let known: BTreeSet<usize> = self.pieces.values().flat_map(BTreeMap::values).copied().collect();
+        let known: BTreeSet<usize> = self
+            .pieces
+            .values()
+            .flat_map(BTreeMap::values)
+            .copied()
+            .collect();
         firsts.extend(copies.keys().filter(|one| !known.contains(*one)));
         for first in firsts {
             let mut pieces = self.pieces(first);
@@ -382,7 +401,9 @@ impl Adding<'_> {
                 body: Arc::clone(&unmoved.body),
                 motions: unmoved.motions.then(motion.clone()),
             };
-            let moved = from.body.moved(&from.motions, [low, high], tolerance, &self.reliefs);
+            let moved = from
+                .body
+                .moved(&from.motions, [low, high], tolerance, &self.reliefs);
             let moved = moved.map(|(body, deviation)| (MovedBody { body, from }, deviation));
             moved.map_err(|error| {
                 let name = &self.volumes.rules[*volume].name;

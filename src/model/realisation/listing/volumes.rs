@@ -360,6 +360,6 @@ fn background(model: &Model) -> VolumeRules {
         above: None,
         piece_of: None,
         along: None,
-            block: BlockRules::default(),
+        block: BlockRules::default(),
     }
 }
