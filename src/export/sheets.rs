@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use super::ExportError;
-use super::boundary::tables;
 use super::mesh::{Triangulation, VolumeMesh, collect, failed};
+use crate::assembly::boundary::tables;
 use crate::assembly::{self, Assembly, kernel};
 use crate::features::body::Role;
 use crate::mesh::{self, Fineness, Mesh, Support, Tables, Used};

@@ -24,6 +24,7 @@ pub(crate) mod plug;
 pub(crate) mod point_bars;
 pub(crate) mod scour;
 pub(crate) mod sheet;
+pub(crate) mod solid;
 pub(crate) mod splay;
 pub(crate) mod trend;
 mod unit;
@@ -53,6 +54,7 @@ use plug::PlugSpec;
 use point_bars::PointBarsSpec;
 use scour::ScourSpec;
 use sheet::SheetSpec;
+use solid::SolidSpec;
 use splay::SplaySpec;
 use trend::TrendSpec;
 
@@ -188,6 +190,8 @@ kinds! {
     Sheet(SheetSpec),
     /// A closed body from control nets of one's own.
     Body(BodySpec),
+    /// A closed body from a file of a CAD program.
+    Solid(SolidSpec),
     /// Wedges on the banks of a channel.
     Levee(LeveeSpec),
     /// A lobe of what a flood carried through a bank of a channel.
