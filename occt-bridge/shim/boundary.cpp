@@ -114,9 +114,12 @@ CurveRow curve_row(opencascade::handle<typename Kind::Curve> curve, const Range&
   auto spline = opencascade::handle<typename Kind::BSpline>::DownCast(curve);
   if (spline.IsNull() && !opencascade::handle<typename Kind::Bezier>::DownCast(curve).IsNull()) spline = Kind::convert(curve);
   if (spline.IsNull()) spline = as_spline(curve, used);  // circles, ellipses and what else CAD programs have
-  if (spline->IsPeriodic()) {
+  const int last = spline->NbKnots();
+  if (spline->IsPeriodic() || std::min(spline->Multiplicity(1), spline->Multiplicity(last)) <= spline->Degree()) {
     spline = opencascade::handle<typename Kind::BSpline>::DownCast(spline->Copy());
-    spline->SetNotPeriodic();
+    // What was periodic has knots beyond its ends; a segment of it is clamped.
+    if (spline->IsPeriodic()) spline->SetNotPeriodic();
+    spline->Segment(spline->FirstParameter(), spline->LastParameter());
   }
   put(to, spline->KnotSequence());
   for (int i = 1; i <= spline->NbPoles(); ++i) put(to, Kind::coordinates(spline->Pole(i)));
@@ -137,10 +140,15 @@ SurfaceRow surface_row(const Handle(Geom_Surface) & surface, const std::array<Ra
   auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
   if (spline.IsNull() && surface->IsKind(STANDARD_TYPE(Geom_BezierSurface))) spline = GeomConvert::SurfaceToBSplineSurface(surface);
   if (spline.IsNull()) spline = as_spline(surface, used[0], used[1]);  // cylinders, spheres and what else CAD programs have
-  if (spline->IsUPeriodic() || spline->IsVPeriodic()) {
+  const int least_u = std::min(spline->UMultiplicity(1), spline->UMultiplicity(spline->NbUKnots()));
+  const int least_v = std::min(spline->VMultiplicity(1), spline->VMultiplicity(spline->NbVKnots()));
+  if (spline->IsUPeriodic() || spline->IsVPeriodic() || least_u <= spline->UDegree() || least_v <= spline->VDegree()) {
     spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
     spline->SetUNotPeriodic();
     spline->SetVNotPeriodic();
+    double u0, u1, v0, v1;
+    spline->Bounds(u0, u1, v0, v1);
+    spline->Segment(u0, u1, v0, v1);
   }
   const int nu = spline->NbUPoles();
   const int nv = spline->NbVPoles();

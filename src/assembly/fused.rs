@@ -13,6 +13,7 @@ use super::shapes::{self, Cut};
 use super::sides::{self, SideError};
 use super::worker::{self, WorkerError};
 use crate::features::body::{Body, Trough};
+use crate::features::imported::Imported;
 use crate::features::shell::Shell;
 use crate::model::plan::{AssemblyPlan, PlannedBody, PlannedShell};
 
@@ -228,13 +229,18 @@ fn given(
     let Body::Imported(imported) = &shell.body else {
         return topology(shell, place, block, remedy).map(Given::Tables);
     };
+    Ok(read(imported))
+}
+
+/// A solid of another program as the kernel has read it.
+pub(super) fn read(imported: &Imported) -> Given {
     let placement = imported.placement();
-    Ok(Given::Read {
+    Given::Read {
         bytes: imported.original().kernel().to_vec(),
         scale: placement.scale,
         turn: -placement.azimuth,
         at: placement.at.to_array(),
-    })
+    }
 }
 
 /// The closed shell of a shell of the plan, at a place among all.

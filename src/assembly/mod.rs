@@ -27,6 +27,7 @@ pub mod worker;
 
 use std::time::{Duration, Instant};
 
+use crate::features::imported::Imported;
 use crate::model::owner::{Owners, OwnersError};
 use crate::model::plan::{AssemblyPlan, PlanError};
 use crate::model::realisation::{Realisation, RealisationError};
@@ -109,6 +110,11 @@ impl Assembly {
 /// What there is before anything is assembled: the domain as volume 0, then each body whole, by its volume.
 pub(crate) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, kernel::Shape)>, String> {
     fused::bodies(plan)
+}
+
+/// A solid of another program, where a model has it.
+pub(crate) fn solid_of(imported: &Imported) -> Result<kernel::Shape, kernel::BridgeError> {
+    fused::read(imported).solid()
 }
 
 /// What an engine has made, before it is proven.

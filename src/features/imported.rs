@@ -167,6 +167,11 @@ impl Original {
         self.tables.faces.len()
     }
 
+    /// Its faces, each with whether it looks against its surface's normal.
+    pub fn uses(&self) -> impl Iterator<Item = (usize, bool)> {
+        self.reversed.iter().copied().enumerate()
+    }
+
     /// How far its edges may be from their surfaces (m).
     pub fn tolerance(&self) -> f64 {
         self.tolerance
