@@ -65,8 +65,15 @@ fn realised(overrides: &[&str]) -> Realisation {
 fn a_salt_dome_leaves_the_beds_what_its_closed_form_says() {
     let model = checked(&source("salt/salt"));
     let built = Built::new(model, &Selection::default(), Engine::Auto).unwrap();
-    assert!(built.assembly.proof.holds(), "{}", built.assembly.proof.failures());
-    assert_eq!((built.assembly.engine, built.assembly.remedy), (Engine::Occt, "none"));
+    assert!(
+        built.assembly.proof.holds(),
+        "{}",
+        built.assembly.proof.failures()
+    );
+    assert_eq!(
+        (built.assembly.engine, built.assembly.remedy),
+        (Engine::Occt, "none")
+    );
     assert!(built.assembly.failed.is_empty());
     let million = 1e6;
     for (name, right) in [
@@ -80,7 +87,10 @@ fn a_salt_dome_leaves_the_beds_what_its_closed_form_says() {
     ] {
         let found = built.size(name);
         // The kernel's integrals over rational splines.
-        assert!((found / right - 1.0).abs() < 2e-6, "{name}: {found} for {right}");
+        assert!(
+            (found / right - 1.0).abs() < 2e-6,
+            "{name}: {found} for {right}"
+        );
         assert_eq!(built.pieces(name), 1, "{name}");
     }
     // The cavern has a skin of its own: a cylinder and two cones of 50 m.
@@ -102,7 +112,9 @@ fn every_point_belongs_to_what_the_equations_say() {
             part * DVec3::new(4000.0, 4000.0, -3000.0)
         };
         // Half a millimetre beside any surface all is exact.
-        let beside = [-1.0, 1.0].into_iter().flat_map(|step| DVec3::AXES.map(|a| a * step * 5e-4));
+        let beside = [-1.0, 1.0]
+            .into_iter()
+            .flat_map(|step| DVec3::AXES.map(|a| a * step * 5e-4));
         let right = expected(p);
         if beside.into_iter().any(|step| expected(p + step) != right) {
             continue;
@@ -142,9 +154,15 @@ fn a_solid_is_scaled_turned_and_moved_as_the_model_says() {
     assert_eq!(at(&[moved], [1700.0, 2100.0, -1300.0]), "salt/cavern");
     assert_eq!(at(&[moved], [2250.0, 1900.0, -1500.0]), "salt");
     assert_eq!(at(&[], [2315.0, 1900.0, -1500.0]), "salt");
-    assert_eq!(at(&["feature.cavern.scale=2"], [2315.0, 1900.0, -1500.0]), "salt/cavern");
+    assert_eq!(
+        at(&["feature.cavern.scale=2"], [2315.0, 1900.0, -1500.0]),
+        "salt/cavern"
+    );
     // The dome as a lens: turned about a far origin it comes to lie elsewhere.
-    let turned = ["feature.salt.azimuth_deg=90", "feature.salt.at=[1000, 3000, 0]"];
+    let turned = [
+        "feature.salt.azimuth_deg=90",
+        "feature.salt.at=[1000, 3000, 0]",
+    ];
     assert_eq!(at(&turned, [1000.0, 3000.0, -1400.0]), "salt");
     assert_eq!(at(&turned, [2500.0, 3000.0, -1400.0]), "sand");
 }
@@ -161,8 +179,14 @@ fn copies_of_a_solid_with_drawn_places_are_proven_each_by_itself() {
         source.set(one);
     }
     let built = Built::new(checked(&source), &Selection::default(), Engine::Auto).unwrap();
-    assert!(built.assembly.proof.holds(), "{}", built.assembly.proof.failures());
-    let sizes: f64 = (1..=3).map(|k| built.size(&format!("salt/cavern-{k}"))).sum();
+    assert!(
+        built.assembly.proof.holds(),
+        "{}",
+        built.assembly.proof.failures()
+    );
+    let sizes: f64 = (1..=3)
+        .map(|k| built.size(&format!("salt/cavern-{k}")))
+        .sum();
     let salt = built.size("salt");
     assert!(((salt + sizes) / (1080e6 * PI) - 1.0).abs() < 2e-6);
     assert!(sizes > 0.0 && sizes < 3.0 * 0.352e6 * PI);
@@ -171,9 +195,14 @@ fn copies_of_a_solid_with_drawn_places_are_proven_each_by_itself() {
 #[test]
 fn the_partition_alone_refuses_a_solid_of_another_program_and_says_why() {
     let model = checked(&source("salt/salt"));
-    let error = Built::new(model, &Selection::default(), Engine::Partition).err().unwrap();
+    let error = Built::new(model, &Selection::default(), Engine::Partition)
+        .err()
+        .unwrap();
     let AssemblyError::NotProven { failed, .. } = &error else {
         panic!("{error}");
     };
-    assert!(failed[0].why.contains("leave `--engine partition` out"), "{error}");
+    assert!(
+        failed[0].why.contains("leave `--engine partition` out"),
+        "{error}"
+    );
 }

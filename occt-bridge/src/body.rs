@@ -88,7 +88,12 @@ fn refusal(error: BridgeError) -> BodyError {
         Some("invalid") => BodyError::Invalid,
         _ => return BodyError::Kernel(error),
     };
-    kind(message.split_once(':').map_or("", |(_, rest)| rest).to_owned())
+    kind(
+        message
+            .split_once(':')
+            .map_or("", |(_, rest)| rest)
+            .to_owned(),
+    )
 }
 
 impl Shape {

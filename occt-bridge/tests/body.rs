@@ -27,7 +27,10 @@ fn a_body_in_millimetres_is_read_in_metres_with_all_of_its_volume() {
     assert_eq!(body.faces, 3);
     // The kernel's own integral over a rational spline, asked for 1e-9, does not do better.
     let found = volume(&body.shape, 1e-9).unwrap() / dome_volume();
-    assert!((found - 1.0).abs() < 3e-7 && (body.volume / dome_volume() - 1.0).abs() < 3e-7, "{found}");
+    assert!(
+        (found - 1.0).abs() < 3e-7 && (body.volume / dome_volume() - 1.0).abs() < 3e-7,
+        "{found}"
+    );
     let size = bounds(&body.shape).unwrap();
     assert!((size.max[2] + 900.0).abs() < 1e-3 && (size.min[2] + 3600.0).abs() < 1e-3);
     assert_eq!(body.shape.kind().unwrap(), ShapeKind::Solid);
@@ -67,7 +70,10 @@ fn a_body_is_made_larger_turned_and_moved_in_this_order() {
     let expected = [[220.0, 380.0], [420.0, 580.0], [-250.0, 270.0]];
     for (axis, [low, high]) in expected.into_iter().enumerate() {
         let found = [a.min[axis], a.max[axis]];
-        assert!((found[0] - low).abs() < b && (found[1] - high).abs() < b, "{found:?}");
+        assert!(
+            (found[0] - low).abs() < b && (found[1] - high).abs() < b,
+            "{found:?}"
+        );
     }
     assert!(shape.placed(0.0, 0.0, [0.0; 3]).is_err());
 }
@@ -83,22 +89,34 @@ fn what_is_no_body_is_told_with_its_reason() {
     let error = refused("solid made of words\n", step);
     assert!(matches!(error, BodyError::Unreadable(_)), "{error:?}");
     let error = refused(&DOME[..DOME.len() / 2], step);
-    assert!(matches!(error, BodyError::Unreadable(_) | BodyError::Empty(_)), "{error:?}");
+    assert!(
+        matches!(error, BodyError::Unreadable(_) | BodyError::Empty(_)),
+        "{error:?}"
+    );
     let error = refused("", METRES);
     assert!(matches!(error, BodyError::Unreadable(_)), "{error:?}");
     let error = refused(DOME, METRES);
     assert!(matches!(error, BodyError::Unreadable(_)), "{error:?}");
     let error = refused(TWO, step);
-    assert!(matches!(error, BodyError::Several(_)) && told(&error) == "it holds 2 solids", "{error:?}");
+    assert!(
+        matches!(error, BodyError::Several(_)) && told(&error) == "it holds 2 solids",
+        "{error:?}"
+    );
     // Without the floor of the stem.
-    let shell = DOME.lines().find(|line| line.contains("CLOSED_SHELL")).unwrap();
+    let shell = DOME
+        .lines()
+        .find(|line| line.contains("CLOSED_SHELL"))
+        .unwrap();
     let faces = shell.split_once("(#").unwrap().1.trim_end_matches("));");
     let last = faces.rsplit_once(',').unwrap().1;
     let open = DOME.replace(&format!(",{last}));"), "));");
     assert_ne!(open, DOME);
     let error = refused(&open, step);
     assert!(matches!(error, BodyError::Open(_)), "{error:?}");
-    assert!(told(&error).contains("1 edge has a face on one side only, one near ("), "{error}");
+    assert!(
+        told(&error).contains("1 edge has a face on one side only, one near ("),
+        "{error}"
+    );
 }
 
 #[test]
@@ -125,7 +143,10 @@ fn what_is_periodic_comes_back_clamped_and_as_long() {
         let columns = knots_v.len() - degree_v - 1;
         let (first, end) = (&poles[..columns], &poles[poles.len() - columns..]);
         for (a, b) in first.iter().zip(end) {
-            assert!((0..3).all(|axis| (a[axis] - b[axis]).abs() < 1e-9), "{a:?} {b:?}");
+            assert!(
+                (0..3).all(|axis| (a[axis] - b[axis]).abs() < 1e-9),
+                "{a:?} {b:?}"
+            );
         }
     }
 }

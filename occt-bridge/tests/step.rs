@@ -48,7 +48,11 @@ fn a_cylinder_by_its_radius_is_taken_apart_as_a_spline_around_its_axis() {
     assert_eq!(*weights, None);
     // The axis is at x = 10 mm; control points lie a little outside of the circle, its first one on it.
     let radius = |p: &[f64; 3]| (p[0] - 0.01).hypot(p[1]) / 1e-3;
-    assert!(poles.iter().all(|p| (1.0 - 1e-11..1.01).contains(&radius(p))));
+    assert!(
+        poles
+            .iter()
+            .all(|p| (1.0 - 1e-11..1.01).contains(&radius(p)))
+    );
     assert!((radius(&poles[0]) - 1.0).abs() < 1e-11);
     let edges = tables.edges.iter().filter(|edge| edge.start == edge.end);
     assert_eq!(edges.count(), 2);

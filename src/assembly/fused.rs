@@ -7,7 +7,9 @@ use glam::DVec3;
 use super::closed;
 use super::failure::{AssemblyError, Failed};
 use super::joined::{self, JoinedError};
-use super::kernel::{self, Bound, Cancel, FuseError, FuseJob, FuseReport, Given, Shape, Solids, Topology};
+use super::kernel::{
+    self, Bound, Cancel, FuseError, FuseJob, FuseReport, Given, Shape, Solids, Topology,
+};
 use super::options::{Engine, Options};
 use super::shapes::{self, Cut};
 use super::sides::{self, SideError};

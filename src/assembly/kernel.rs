@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 pub use occt_bridge::Cancel;
 pub(crate) use occt_bridge::{
-    BodyError, BodyFormat, Boundary, BoundaryEdge, BoundaryShape, BoundaryUse, BridgeError, Classifier, Curve, Edge,
-    EdgeUse, Face, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Path, Pcurve, Position, Shape,
-    Shell, Solids, Surface, TableEdge, TableFace, TableSolid, TableVertex, Tables, Threads,
-    Topology, boundary, box_solid, compound, defects, face_integrals, face_samples, faces,
-    read_body, set_threads, solid, solid_boxes, version, write_brep,
+    BodyError, BodyFormat, Boundary, BoundaryEdge, BoundaryShape, BoundaryUse, BridgeError,
+    Classifier, Curve, Edge, EdgeUse, Face, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Path,
+    Pcurve, Position, Shape, Shell, Solids, Surface, TableEdge, TableFace, TableSolid, TableVertex,
+    Tables, Threads, Topology, boundary, box_solid, compound, defects, face_integrals,
+    face_samples, faces, read_body, set_threads, solid, solid_boxes, version, write_brep,
 };
 use occt_bridge::{PartitionOptions, partition};
 

@@ -202,7 +202,8 @@ pub fn assemble(
     let has_imported = run.subject.plan.has_imported();
     if has_imported && options.engine == Engine::Partition {
         let why = "the partition makes no model that holds a solid of another program: leave `--engine partition` out";
-        run.failed.push(Failed::new(Engine::Partition, "none", why.to_owned()));
+        run.failed
+            .push(Failed::new(Engine::Partition, "none", why.to_owned()));
     }
     if options.engine != Engine::Occt && !has_imported {
         for remedy in &partitioned::REMEDIES {

@@ -28,12 +28,13 @@ pub fn read_solid(bytes: &[u8], format: SolidFormat) -> Result<ReadSolid, SolidE
     };
     let kernel = body.shape.to_bytes().map_err(of_kernel)?;
     let tables = tables(&boundary).map_err(failed)?;
-    let original = Original::new(tables, &faces, body.tolerance, (kernel, body.volume)).map_err(
-        |error| SolidError {
-            reason: error.to_string(),
-            remedy: CLOSE.to_owned(),
-        },
-    )?;
+    let original =
+        Original::new(tables, &faces, body.tolerance, (kernel, body.volume)).map_err(|error| {
+            SolidError {
+                reason: error.to_string(),
+                remedy: CLOSE.to_owned(),
+            }
+        })?;
     Ok(ReadSolid {
         original,
         unit: body.unit,
@@ -43,7 +44,9 @@ pub fn read_solid(bytes: &[u8], format: SolidFormat) -> Result<ReadSolid, SolidE
 fn refused(error: &BodyError) -> SolidError {
     let remedy = match error {
         BodyError::Unreadable(_) => "export it again; it may have been cut off",
-        BodyError::Empty(_) => "export the solid itself, not a sketch, a part of an assembly that is hidden, or an empty file",
+        BodyError::Empty(_) => {
+            "export the solid itself, not a sketch, a part of an assembly that is hidden, or an empty file"
+        }
         BodyError::Several(_) => {
             "export one solid a file, and give each a feature of its own; or make one of them where they touch"
         }
@@ -51,7 +54,9 @@ fn refused(error: &BodyError) -> SolidError {
         BodyError::Invalid(_) => {
             "repair it in the program that it comes from, or export it in another way, for example with splines in the place of surfaces of revolution"
         }
-        BodyError::Kernel(_) => "export it in another way: from its own program, or as BREP in the place of STEP",
+        BodyError::Kernel(_) => {
+            "export it in another way: from its own program, or as BREP in the place of STEP"
+        }
     };
     SolidError {
         reason: error.to_string(),

@@ -82,7 +82,9 @@ impl Body {
             }
             Self::Imported(imported) => {
                 let surfaces = imported.surfaces().iter();
-                Ok(surfaces.map(|surface| (Role::Skin, surface.clone())).collect())
+                Ok(surfaces
+                    .map(|surface| (Role::Skin, surface.clone()))
+                    .collect())
             }
         }
     }

@@ -125,15 +125,29 @@ fn a_cylinder_of_trimmed_faces_holds_what_its_equation_says_wherever_it_is_place
         for k in 1..6000 {
             let own = DVec3::new(-1.5, -1.5, -0.5) + spread(k) * 3.0;
             let inside = own.xy().length() < 1.0 && (0.0..2.0).contains(&own.z);
-            assert_eq!(body.inside().contains(placement.place(own)), inside, "{own}");
+            assert_eq!(
+                body.inside().contains(placement.place(own)),
+                inside,
+                "{own}"
+            );
             held += u32::from(inside);
         }
         assert!((f64::from(held) / 5999.0 - 2.0 * PI / 27.0).abs() < 0.01);
         // On the axis, where rays along z run up to the middle of both planes, and on the seam.
         for z in [0.3, 1.0, 1.9] {
-            assert!(body.inside().contains(placement.place(DVec3::new(0.0, 0.0, z))));
-            assert!(body.inside().contains(placement.place(DVec3::new(0.999, 0.0, z))));
-            assert!(!body.inside().contains(placement.place(DVec3::new(1.001, 0.0, z))));
+            assert!(
+                body.inside()
+                    .contains(placement.place(DVec3::new(0.0, 0.0, z)))
+            );
+            assert!(
+                body.inside()
+                    .contains(placement.place(DVec3::new(0.999, 0.0, z)))
+            );
+            assert!(
+                !body
+                    .inside()
+                    .contains(placement.place(DVec3::new(1.001, 0.0, z)))
+            );
         }
     }
 }
@@ -147,9 +161,15 @@ fn a_placement_makes_larger_then_turns_clockwise_then_moves() {
     };
     // What pointed north points east.
     let place = placement.place(DVec3::new(0.0, 3.0, 4.0));
-    assert!(place.distance(DVec3::new(106.0, 10.0, 9.0)) < 1e-12, "{place}");
+    assert!(
+        place.distance(DVec3::new(106.0, 10.0, 9.0)) < 1e-12,
+        "{place}"
+    );
     let place = placement.place(DVec3::new(3.0, 0.0, 0.0));
-    assert!(place.distance(DVec3::new(100.0, 4.0, 1.0)) < 1e-12, "{place}");
+    assert!(
+        place.distance(DVec3::new(100.0, 4.0, 1.0)) < 1e-12,
+        "{place}"
+    );
 }
 
 #[test]
@@ -166,7 +186,17 @@ fn faces_that_do_not_close_are_refused_with_the_place() {
     let (tables, mut uses) = cylinder();
     uses[2].1 = true;
     let error = original((tables, uses)).unwrap_err();
-    assert!(matches!(error, ImportError::Open { forward: 0, backward: 2, .. }), "{error}");
+    assert!(
+        matches!(
+            error,
+            ImportError::Open {
+                forward: 0,
+                backward: 2,
+                ..
+            }
+        ),
+        "{error}"
+    );
 }
 
 #[test]
@@ -179,11 +209,26 @@ fn an_edge_beside_its_surface_is_refused_with_the_distance() {
         y_axis: DVec3::Y,
     };
     let error = original((tables, uses)).unwrap_err();
-    assert!(error.to_string().contains("is 1.0e-3 m beside the surface"), "{error}");
+    assert!(
+        error.to_string().contains("is 1.0e-3 m beside the surface"),
+        "{error}"
+    );
     // Where a reader has lost the seam, the wall's rim does not close in its parameters.
     let (mut tables, uses) = cylinder();
-    tables.faces[0].loops = vec![vec![tables.faces[0].loops[0][0]], vec![tables.faces[0].loops[0][2]]];
+    tables.faces[0].loops = vec![
+        vec![tables.faces[0].loops[0][0]],
+        vec![tables.faces[0].loops[0][2]],
+    ];
     tables.edges[2].curve = None;
     let error = original((tables, uses)).unwrap_err();
-    assert!(matches!(error, ImportError::Loop { face: 1, source: TrimError::Gap { .. } }), "{error}");
+    assert!(
+        matches!(
+            error,
+            ImportError::Loop {
+                face: 1,
+                source: TrimError::Gap { .. }
+            }
+        ),
+        "{error}"
+    );
 }

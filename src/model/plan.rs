@@ -342,10 +342,9 @@ impl AssemblyPlan {
         let flush = match (level, &*reaching.body) {
             // Only troughs have a level top.
             (None, _)
-            | (
-                Some(_),
-                Body::Ellipsoid(_) | Body::Shell(_) | Body::Side(_) | Body::Imported(_),
-            ) => None,
+            | (Some(_), Body::Ellipsoid(_) | Body::Shell(_) | Body::Side(_) | Body::Imported(_)) => {
+                None
+            }
             (Some(level), Body::Trough(trough)) => {
                 let raised = trough.raised().map_err(|source| PlanError {
                     volume: self.names[reaching.volume].clone(),

@@ -104,10 +104,12 @@ impl Model {
 impl Model {
     /// The solids that come from files, with the features that they are.
     pub fn solids(&self) -> impl Iterator<Item = (&str, &SolidSpec)> {
-        self.features.iter().filter_map(|feature| match &feature.kind {
-            FeatureKind::Solid(solid) => Some((feature.id.as_str(), solid)),
-            _ => None,
-        })
+        self.features
+            .iter()
+            .filter_map(|feature| match &feature.kind {
+                FeatureKind::Solid(solid) => Some((feature.id.as_str(), solid)),
+                _ => None,
+            })
     }
 }
 

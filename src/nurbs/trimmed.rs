@@ -171,7 +171,8 @@ mod tests {
             (1.0, 0.0),
         ];
         let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
-        let at = |(x, y): (f64, f64)| DVec3::new(middle[0] + radius * x, middle[1] + radius * y, 0.0);
+        let at =
+            |(x, y): (f64, f64)| DVec3::new(middle[0] + radius * x, middle[1] + radius * y, 0.0);
         let weights = (0..9).map(|k| if k % 2 == 0 { 1.0 } else { w }).collect();
         let knots = KnotVector::new(2, knots).unwrap();
         Curve::rational(knots, corners.map(at).to_vec(), weights).unwrap()
@@ -246,7 +247,13 @@ mod tests {
             let part = DVec3::new(0.819_172_513, 0.671_043_607, 0.549_700_478) * f64::from(k);
             let p = DVec3::new(-1.5, -1.5, -1.5) + part.fract() * DVec3::new(3.0, 3.0, 3.5);
             let off = p.xy().distance(DVec2::new(0.2, -0.1)) - 0.4;
-            let sides = [1.0 - p.x.abs(), 1.0 - p.y.abs(), p.z + 1.0, 0.5 - p.x - p.z, off];
+            let sides = [
+                1.0 - p.x.abs(),
+                1.0 - p.y.abs(),
+                p.z + 1.0,
+                0.5 - p.x - p.z,
+                off,
+            ];
             if sides.iter().any(|side| side.abs() < 1e-3) {
                 continue;
             }
@@ -257,13 +264,21 @@ mod tests {
         }
         // (4 · 1.5 − π 0.16 · 1.3) of 31.5 m³.
         let share = (6.0 - 0.208 * std::f64::consts::PI) / 31.5;
-        assert!((f64::from(held) / f64::from(asked) - share).abs() < 0.01, "{held} of {asked}");
+        assert!(
+            (f64::from(held) / f64::from(asked) - share).abs() < 0.01,
+            "{held} of {asked}"
+        );
     }
 
     #[test]
     fn a_point_in_a_trimmed_face_or_on_its_border_is_on_the_shell() {
         let block = Enclosure::trimmed(&drilled(), 2e-4).unwrap();
-        for p in [[0.9, 0.9, -1.0], [0.7, 0.3, -0.2], [1.0, 0.3, -0.7], [1.0, 1.0, -0.75]] {
+        for p in [
+            [0.9, 0.9, -1.0],
+            [0.7, 0.3, -0.2],
+            [1.0, 0.3, -0.7],
+            [1.0, 1.0, -0.75],
+        ] {
             assert!(block.contains(DVec3::from_array(p)), "{p:?}");
         }
         // Beyond the trimming, on the same surfaces.

@@ -48,9 +48,7 @@ fn check(folder: &Path, text: &str, dome: &str) -> Result<Model, Defects> {
 
 fn words(defects: &Defects) -> String {
     let all = defects.iter();
-    let words: Vec<&str> = all
-        .flat_map(|one| [one.message(), one.remedy()])
-        .collect();
+    let words: Vec<&str> = all.flat_map(|one| [one.message(), one.remedy()]).collect();
     words.join("\n")
 }
 
@@ -87,12 +85,12 @@ fn every_broken_solid_is_refused_with_place_value_and_remedy() {
         let all: Vec<_> = of_key.collect();
         let said = words(&defects);
         let is_right = all.len() == 1
-            && place.is_none_or(|place| {
-                place == (all[0].place().line, all[0].place().column)
-            })
+            && place.is_none_or(|place| place == (all[0].place().line, all[0].place().column))
             && expected.iter().all(|word| said.contains(word));
         if !is_right {
-            wrong.push(format!("== {replace}\nexpected {place:?} {expected:?}\n{defects}"));
+            wrong.push(format!(
+                "== {replace}\nexpected {place:?} {expected:?}\n{defects}"
+            ));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
@@ -108,7 +106,10 @@ fn what_is_no_file_of_a_solid_is_told_without_the_kernel() {
         ),
         (
             "x,y,z\n1,2,3\n",
-            ["begins with \"x,y,z\", which is neither STEP nor BREP", "export the solid as STEP"],
+            [
+                "begins with \"x,y,z\", which is neither STEP nor BREP",
+                "export the solid as STEP",
+            ],
         ),
     ] {
         let folder = tempfile::tempdir().unwrap();
@@ -149,15 +150,15 @@ fn what_is_no_closed_solid_is_told_with_the_readers_reason() {
     let two = include_str!("../../occt-bridge/tests/cadquery.step");
     let headless = "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";
     for (file, expected) in [
-        (
-            &DOME[..DOME.len() / 2],
-            ["\"salt.step\": ", "export"],
-        ),
+        (&DOME[..DOME.len() / 2], ["\"salt.step\": ", "export"]),
         (headless, ["it holds no shape", "export the solid itself"]),
         (two, ["it holds 2 solids", "one solid a file"]),
         (
             &open(),
-            ["it is not closed: 1 edge has a face on one side only, one near (", "sew its faces"],
+            [
+                "it is not closed: 1 edge has a face on one side only, one near (",
+                "sew its faces",
+            ],
         ),
     ] {
         let folder = tempfile::tempdir().unwrap();
@@ -179,7 +180,18 @@ fn the_good_file_is_good() {
     let model = check(folder.path(), MODEL, DOME).unwrap_or_else(|defects| panic!("{defects}"));
     let solids: Vec<_> = model.solids().collect();
     assert_eq!(solids.len(), 2);
-    assert_eq!((solids[0].1.format, solids[0].1.unit.as_str()), ("STEP", "millimetre"));
-    assert_eq!((solids[1].1.format, solids[1].1.unit.as_str()), ("BREP", "m"));
-    assert!(model.notes.iter().any(|note| note.message.contains("the general fuse makes the model")));
+    assert_eq!(
+        (solids[0].1.format, solids[0].1.unit.as_str()),
+        ("STEP", "millimetre")
+    );
+    assert_eq!(
+        (solids[1].1.format, solids[1].1.unit.as_str()),
+        ("BREP", "m")
+    );
+    assert!(
+        model
+            .notes
+            .iter()
+            .any(|note| note.message.contains("the general fuse makes the model"))
+    );
 }

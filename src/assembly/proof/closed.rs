@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::scene::Scene;
 use super::spline;
-use crate::nurbs::spline::Spline;
 use super::{Check, Prover};
 use crate::nurbs::Surface;
+use crate::nurbs::spline::Spline;
 use crate::partition::{Edge, Topology};
 
 /// Where in a span an edge is measured: at no place that its making prefers.

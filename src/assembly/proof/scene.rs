@@ -7,9 +7,9 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use crate::nurbs::outline::{Course, Outline};
 use super::spline;
 use super::tree::{Bounds, Tree};
+use crate::nurbs::outline::{Course, Outline};
 use crate::nurbs::pierce::{Line, Passage, Target, merged};
 use crate::partition::{Face, Topology};
 

@@ -20,8 +20,6 @@ pub(super) fn of_plane(shape: &PlaneCurve, range: [f64; 2]) -> Spline<'_> {
         PlaneCurve::Line { origin, direction } => {
             Spline::of_line(range, range.map(|t| *origin + *direction * t))
         }
-        PlaneCurve::Computed { knots, points } => {
-            Spline::of_plane_points(COMPUTED, knots, points)
-        }
+        PlaneCurve::Computed { knots, points } => Spline::of_plane_points(COMPUTED, knots, points),
     }
 }

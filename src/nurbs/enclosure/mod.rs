@@ -89,7 +89,10 @@ impl Enclosure {
                 size,
             });
         }
-        let outlines: Vec<_> = faces.iter().map(|face| Arc::clone(face.outline())).collect();
+        let outlines: Vec<_> = faces
+            .iter()
+            .map(|face| Arc::clone(face.outline()))
+            .collect();
         let tolerance = tolerance.max(CLOSURE * size);
         Ok(Self::of(surfaces, &outlines, tolerance))
     }
