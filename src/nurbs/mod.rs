@@ -30,12 +30,20 @@ mod knots;
 mod lattice;
 mod length;
 pub mod meet;
+#[cfg_attr(
+    not(feature = "occt"),
+    allow(dead_code, reason = "the proof of assemblies asks for more of it")
+)]
 pub(crate) mod outline;
 pub mod pierce;
 pub mod quadrature;
 mod refine;
 mod reverse;
 mod ruled;
+#[cfg_attr(
+    not(feature = "occt"),
+    allow(dead_code, reason = "the proof of assemblies asks for more of it")
+)]
 pub(crate) mod spline;
 mod split;
 mod surface;
