@@ -17,9 +17,10 @@ const OLDEST: (u32, u32) = (7, 6);
 const TOO_NEW: u32 = 8;
 
 /// Every shim: one per task.
-const SHIMS: [&str; 11] = [
+const SHIMS: [&str; 13] = [
     "shape",
     "geometry",
+    "spline",
     "topology",
     "assembled",
     "partition",
@@ -29,6 +30,7 @@ const SHIMS: [&str; 11] = [
     "step",
     "brep",
     "boundary",
+    "body",
 ];
 
 /// Toolkits whose names never changed.

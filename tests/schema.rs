@@ -50,7 +50,10 @@ fn the_schema_admits_every_committed_model() {
                 .is_some_and(|extension| extension == "toml")
             {
                 let text = std::fs::read_to_string(&path).unwrap();
-                checked::checked(&Source::read(path.clone()).unwrap());
+                // Solids of other programs the kernel reads.
+                if cfg!(feature = "occt") || !text.contains("\"solid\"") {
+                    checked::checked(&Source::read(path.clone()).unwrap());
+                }
                 let errors: Vec<String> = validator
                     .iter_errors(&as_json(&text))
                     .map(|e| e.to_string())

@@ -1,8 +1,10 @@
 #include "occt-bridge/shim/boundary.hpp"
 
+#include "occt-bridge/shim/spline.hpp"
 #include "occt-bridge/src/ffi.rs.h"
 
 #include <BRepClass3d.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dConvert.hxx>
 #include <Geom2d_BSplineCurve.hxx>
@@ -10,6 +12,7 @@
 #include <Geom2d_Line.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
 #include <GeomConvert.hxx>
+#include <Geom_BezierSurface.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierCurve.hxx>
@@ -70,28 +73,35 @@ void put(Numbers& to, const TColStd_Array1OfReal& flat) {
   for (int i = flat.Lower(); i <= flat.Upper(); ++i) to.push_back(flat(i));
 }
 
-std::string refusal(const char* what, const Handle(Standard_Transient) & geometry, const char* can) {
-  return std::string(what) + " is a " + geometry->DynamicType()->Name() + "; only " + can + " can be taken";
-}
-
 // Geometry by identity: each piece is there once, in the order of its first use.
 template <typename Geometry>
 class Identities {
  public:
-  std::uint32_t index(const opencascade::handle<Geometry>& one) {
+  // With the parameters that are used of it: what is no spline becomes one over these.
+  std::uint32_t index(const opencascade::handle<Geometry>& one, const Range& u, const Range& v = {0.0, 0.0}) {
     const auto found = places_.emplace(one.get(), static_cast<std::uint32_t>(all_.size()));
-    if (found.second) all_.push_back(one);
+    if (found.second) {
+      all_.push_back(one);
+      used_.push_back({u, v});
+    }
+    std::array<Range, 2>& used = used_[found.first->second];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Range& more = k == 0 ? u : v;
+      used[k] = {std::min(used[k][0], more[0]), std::max(used[k][1], more[1])};
+    }
     return found.first->second;
   }
   const std::vector<opencascade::handle<Geometry>>& all() const { return all_; }
+  const std::array<Range, 2>& used(std::size_t index) const { return used_[index]; }
 
  private:
   std::unordered_map<const Geometry*, std::uint32_t> places_;
   std::vector<opencascade::handle<Geometry>> all_;  // so that no address is used again
+  std::vector<std::array<Range, 2>> used_;
 };
 
 template <typename Kind>
-CurveRow curve_row(opencascade::handle<typename Kind::Curve> curve, Numbers& to) {
+CurveRow curve_row(opencascade::handle<typename Kind::Curve> curve, const Range& used, Numbers& to) {
   for (auto trimmed = opencascade::handle<typename Kind::Trimmed>::DownCast(curve); !trimmed.IsNull();
        trimmed = opencascade::handle<typename Kind::Trimmed>::DownCast(curve))
     curve = trimmed->BasisCurve();
@@ -103,10 +113,13 @@ CurveRow curve_row(opencascade::handle<typename Kind::Curve> curve, Numbers& to)
   }
   auto spline = opencascade::handle<typename Kind::BSpline>::DownCast(curve);
   if (spline.IsNull() && !opencascade::handle<typename Kind::Bezier>::DownCast(curve).IsNull()) spline = Kind::convert(curve);
-  if (spline.IsNull()) throw Refused(refusal("a curve", curve, "lines and B-splines"));
-  if (spline->IsPeriodic()) {
+  if (spline.IsNull()) spline = as_spline(curve, used);  // circles, ellipses and what else CAD programs have
+  const int last = spline->NbKnots();
+  if (spline->IsPeriodic() || std::min(spline->Multiplicity(1), spline->Multiplicity(last)) <= spline->Degree()) {
     spline = opencascade::handle<typename Kind::BSpline>::DownCast(spline->Copy());
-    spline->SetNotPeriodic();
+    // What was periodic has knots beyond its ends; a segment of it is clamped.
+    if (spline->IsPeriodic()) spline->SetNotPeriodic();
+    spline->Segment(spline->FirstParameter(), spline->LastParameter());
   }
   put(to, spline->KnotSequence());
   for (int i = 1; i <= spline->NbPoles(); ++i) put(to, Kind::coordinates(spline->Pole(i)));
@@ -115,7 +128,7 @@ CurveRow curve_row(opencascade::handle<typename Kind::Curve> curve, Numbers& to)
   return {static_cast<std::uint32_t>(spline->Degree()), static_cast<std::uint32_t>(spline->NbPoles()), spline->IsRational() == Standard_True};
 }
 
-SurfaceRow surface_row(const Handle(Geom_Surface) & surface, Numbers& to) {
+SurfaceRow surface_row(const Handle(Geom_Surface) & surface, const std::array<Range, 2>& used, Numbers& to) {
   const auto plane = Handle(Geom_Plane)::DownCast(surface);
   if (!plane.IsNull()) {
     const gp_Ax3& axes = plane->Position();
@@ -125,11 +138,17 @@ SurfaceRow surface_row(const Handle(Geom_Surface) & surface, Numbers& to) {
     return {0, 0, 0, 0, false};
   }
   auto spline = Handle(Geom_BSplineSurface)::DownCast(surface);
-  if (spline.IsNull()) throw Refused(refusal("a surface", surface, "planes and B-splines"));
-  if (spline->IsUPeriodic() || spline->IsVPeriodic()) {
+  if (spline.IsNull() && surface->IsKind(STANDARD_TYPE(Geom_BezierSurface))) spline = GeomConvert::SurfaceToBSplineSurface(surface);
+  if (spline.IsNull()) spline = as_spline(surface, used[0], used[1]);  // cylinders, spheres and what else CAD programs have
+  const int least_u = std::min(spline->UMultiplicity(1), spline->UMultiplicity(spline->NbUKnots()));
+  const int least_v = std::min(spline->VMultiplicity(1), spline->VMultiplicity(spline->NbVKnots()));
+  if (spline->IsUPeriodic() || spline->IsVPeriodic() || least_u <= spline->UDegree() || least_v <= spline->VDegree()) {
     spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
     spline->SetUNotPeriodic();
     spline->SetVNotPeriodic();
+    double u0, u1, v0, v1;
+    spline->Bounds(u0, u1, v0, v1);
+    spline->Segment(u0, u1, v0, v1);
   }
   const int nu = spline->NbUPoles();
   const int nv = spline->NbVPoles();
@@ -171,9 +190,12 @@ class Taker {
       rows_.vertices.push_back(p.Z());
     }
     auto numbers = std::make_unique<Numbers>();
-    for (const auto& curve : curves_.all()) rows_.curves.push_back(curve_row<InSpace>(curve, *numbers));
-    for (const auto& curve : pcurves_.all()) rows_.pcurves.push_back(curve_row<OnSurface>(curve, *numbers));
-    for (const auto& surface : surfaces_.all()) rows_.surfaces.push_back(surface_row(surface, *numbers));
+    for (std::size_t i = 0; i < curves_.all().size(); ++i)
+      rows_.curves.push_back(curve_row<InSpace>(curves_.all()[i], curves_.used(i)[0], *numbers));
+    for (std::size_t i = 0; i < pcurves_.all().size(); ++i)
+      rows_.pcurves.push_back(curve_row<OnSurface>(pcurves_.all()[i], pcurves_.used(i)[0], *numbers));
+    for (std::size_t i = 0; i < surfaces_.all().size(); ++i)
+      rows_.surfaces.push_back(surface_row(surfaces_.all()[i], surfaces_.used(i), *numbers));
     return numbers;
   }
 
@@ -197,7 +219,9 @@ class Taker {
          trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface))
       surface = trimmed->BasisSurface();
     const bool plane = surface->IsKind(STANDARD_TYPE(Geom_Plane));
-    BoundaryFaceRow row{surfaces_.index(surface), 0};
+    Range u = {0.0, 0.0}, v = {0.0, 0.0};
+    if (!plane && !surface->IsKind(STANDARD_TYPE(Geom_BSplineSurface))) BRepTools::UVBounds(face, u[0], u[1], v[0], v[1]);
+    BoundaryFaceRow row{surfaces_.index(surface, u, v), 0};
     for (TopoDS_Iterator it(face); it.More(); it.Next()) {
       // A general fuse leaves vertices in faces where other bodies only touch them: they bound nothing.
       if (it.Value().ShapeType() == TopAbs_VERTEX) continue;
@@ -250,7 +274,7 @@ class Taker {
       const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, first, last);
       if (pcurve.IsNull()) throw Refused("an edge has no curve on the surface of its face");
       row.has_pcurve = true;
-      row.pcurve = pcurves_.index(pcurve);
+      row.pcurve = pcurves_.index(pcurve, {first, last});
     }
     rows_.uses.push_back(row);
   }
@@ -264,7 +288,7 @@ class Taker {
     if (!row.degenerate) {
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, row.from, row.to);
       if (curve.IsNull()) throw Refused("an edge has no curve");
-      row.curve = curves_.index(curve);
+      row.curve = curves_.index(curve, {row.from, row.to});
     }
     rows_.edges.push_back(row);
   }

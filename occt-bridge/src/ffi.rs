@@ -240,6 +240,14 @@ pub(crate) mod bridge {
         layer: String,
     }
 
+    #[derive(Default)]
+    struct BodyRead {
+        unit: String,
+        volume: f64,
+        faces: usize,
+        tolerance: f64,
+    }
+
     extern "Rust" {
         type Monitor<'a>;
         fn is_cancelled(&self) -> bool;
@@ -258,6 +266,7 @@ pub(crate) mod bridge {
         include!("occt-bridge/shim/step.hpp");
         include!("occt-bridge/shim/brep.hpp");
         include!("occt-bridge/shim/boundary.hpp");
+        include!("occt-bridge/shim/body.hpp");
 
         type ShapeHandle;
         type ShapeList;
@@ -338,6 +347,19 @@ pub(crate) mod bridge {
             tables: &mut Vec<ReadPartData>,
         ) -> Result<UniquePtr<ReadParts>>;
         fn shape(self: &ReadParts, index: usize) -> Result<UniquePtr<ShapeHandle>>;
+
+        fn read_body(
+            bytes: &[u8],
+            step: bool,
+            unit: f64,
+            told: &mut BodyRead,
+        ) -> Result<UniquePtr<ShapeHandle>>;
+        fn placed_shape(
+            shape: &ShapeHandle,
+            scale: f64,
+            turn: f64,
+            at: [f64; 3],
+        ) -> Result<UniquePtr<ShapeHandle>>;
 
         fn boundary_of(
             list: &ShapeList,

@@ -20,6 +20,7 @@
 //! ```
 
 mod assembled;
+mod body;
 mod boundary;
 mod brep;
 mod bytes;
@@ -42,6 +43,7 @@ mod threads;
 mod topology;
 
 pub use assembled::{OnSurface, TableEdge, TableFace, TableSolid, TableVertex, Tables};
+pub use body::{Body, BodyError, BodyFormat, read_body};
 pub use boundary::{
     Boundary, BoundaryEdge, BoundaryFace, BoundaryShape, BoundaryUse, Path, Shell, boundary,
 };

@@ -12,7 +12,7 @@ use crate::shape::Shape;
 /// Held while STEP settings or documents are in use.
 static STEP: Mutex<()> = Mutex::new(());
 
-fn lock() -> MutexGuard<'static, ()> {
+pub(crate) fn lock() -> MutexGuard<'static, ()> {
     // It guards no data of ours, so a panic of another holder leaves nothing half-done.
     STEP.lock().unwrap_or_else(PoisonError::into_inner)
 }

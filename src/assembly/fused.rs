@@ -7,12 +7,15 @@ use glam::DVec3;
 use super::closed;
 use super::failure::{AssemblyError, Failed};
 use super::joined::{self, JoinedError};
-use super::kernel::{self, Bound, Cancel, FuseError, FuseJob, FuseReport, Shape, Solids, Topology};
+use super::kernel::{
+    self, Bound, Cancel, FuseError, FuseJob, FuseReport, Given, Shape, Solids, Topology,
+};
 use super::options::{Engine, Options};
 use super::shapes::{self, Cut};
 use super::sides::{self, SideError};
 use super::worker::{self, WorkerError};
 use crate::features::body::{Body, Trough};
+use crate::features::imported::Imported;
 use crate::features::shell::Shell;
 use crate::model::plan::{AssemblyPlan, PlannedBody, PlannedShell};
 
@@ -150,11 +153,22 @@ fn fuse(
         Some(child) => {
             let bodies = job.shells.len() + job.bounds.len();
             let limit = child.time_limit;
-            let limit = limit.unwrap_or_else(|| budget(bodies, options.engine));
+            // Where the partition was not tried, it was in no doubt.
+            let engine = match options.engine {
+                Engine::Auto if has_read(job) => Engine::Occt,
+                engine => engine,
+            };
+            let limit = limit.unwrap_or_else(|| budget(bodies, engine));
             worker::run(job, (&child.program, limit), cancel, progress)
         }
         None => Ok(kernel::fuse(job, cancel, progress)),
     }
+}
+
+/// Whether a solid of another program takes part.
+fn has_read(job: &FuseJob) -> bool {
+    let mut shells = job.shells.iter();
+    shells.any(|shell| matches!(shell, Given::Read { .. }))
 }
 
 /// The plan as the kernel's job, with one remedy's way of cutting.
@@ -163,7 +177,7 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> Result<FuseJob, 
     let block = [plan.low(), plan.high()];
     let mut shells = Vec::with_capacity(plan.shells.len());
     for (place, shell) in plan.shells.iter().enumerate() {
-        shells.push(topology(shell, place, block, remedy)?);
+        shells.push(given(shell, place, block, remedy)?);
     }
     let mut bounds = Vec::new();
     for (is_top, side) in plan.bounds() {
@@ -176,13 +190,18 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> Result<FuseJob, 
         ..*body
     };
     // What lies above a lid is a box so large that only its floor meets anything.
-    let points = shells
-        .iter()
-        .flat_map(|shell| &shell.vertices)
-        .map(|p| DVec3::from_array(*p));
-    let (low, high) = points.fold((plan.low(), plan.high()), |(low, high), p| {
-        (low.min(p), high.max(p))
+    let points = plan.shells.iter().zip(&shells).flat_map(|(shell, given)| {
+        let (low, high) = shell.body.bounds();
+        match given {
+            Given::Tables(topology) => topology.vertices.clone(),
+            Given::Read { .. } => vec![low.to_array(), high.to_array()],
+        }
     });
+    let (low, high) = points
+        .map(DVec3::from_array)
+        .fold((plan.low(), plan.high()), |(low, high), p| {
+            (low.min(p), high.max(p))
+        });
     let margin = DVec3::splat((high - low).max_element());
     let above = |lid: &f64| {
         [
@@ -202,6 +221,30 @@ fn job(plan: &AssemblyPlan, remedy: &Remedy, threads: usize) -> Result<FuseJob, 
     })
 }
 
+/// A shell of the plan as the kernel is given it, at a place among all.
+fn given(
+    shell: &PlannedShell,
+    place: usize,
+    block: [DVec3; 2],
+    remedy: &Remedy,
+) -> Result<Given, ShellError> {
+    let Body::Imported(imported) = &shell.body else {
+        return topology(shell, place, block, remedy).map(Given::Tables);
+    };
+    Ok(read(imported))
+}
+
+/// A solid of another program as the kernel has read it.
+pub(super) fn read(imported: &Imported) -> Given {
+    let placement = imported.placement();
+    Given::Read {
+        bytes: imported.original().kernel().to_vec(),
+        scale: placement.scale,
+        turn: -placement.azimuth,
+        at: placement.at.to_array(),
+    }
+}
+
 /// The closed shell of a shell of the plan, at a place among all.
 fn topology(
     shell: &PlannedShell,
@@ -212,6 +255,8 @@ fn topology(
     let cut = remedy.cut;
     Ok(match (&shell.body, &shell.flush) {
         (Body::Side(side), _) => sides::shell(side, block, place)?,
+        // Given as it is.
+        (Body::Imported(_), _) => Topology::default(),
         (Body::Shell(shell), _) => joined::shell(shell)?,
         (Body::Ellipsoid(ellipsoid), _) => closed::shell(ellipsoid.skin(), cut.segments),
         (Body::Trough(trough), flush) if trough.has_creases() => {
@@ -251,10 +296,10 @@ pub(super) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, Shape)>, String>
         let shape = match &shell.body {
             Body::Side(side) if side.sheets().is_empty() => continue,
             side @ Body::Side(_) => faces(side)?,
-            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => {
-                let topology = topology(shell, body.shell, block, &LADDER[0])
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) | Body::Imported(_) => {
+                let given = given(shell, body.shell, block, &LADDER[0])
                     .map_err(|error| error.to_string())?;
-                kernel::solid(&topology).map_err(|error| {
+                given.solid().map_err(|error| {
                     let name = &plan.names[body.volume];
                     format!("the kernel refuses the shell of {name}: {error}")
                 })?

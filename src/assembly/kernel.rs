@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 pub use occt_bridge::Cancel;
 pub(crate) use occt_bridge::{
-    Boundary, BoundaryEdge, BoundaryShape, BoundaryUse, BridgeError, Classifier, Curve, Edge,
-    EdgeUse, Face, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Path, Pcurve, Position, Shape,
-    Shell, Solids, Surface, TableEdge, TableFace, TableSolid, TableVertex, Tables, Threads,
-    Topology, boundary, box_solid, compound, defects, face_integrals, face_samples, faces,
-    set_threads, solid, solid_boxes, version, write_brep,
+    BodyError, BodyFormat, Boundary, BoundaryEdge, BoundaryShape, BoundaryUse, BridgeError,
+    Classifier, Curve, Edge, EdgeUse, Face, FaceIntegral, FaceOrigin, FaceSample, OnSurface, Path,
+    Pcurve, Position, Shape, Shell, Solids, Surface, TableEdge, TableFace, TableSolid, TableVertex,
+    Tables, Threads, Topology, boundary, box_solid, compound, defects, face_integrals,
+    face_samples, faces, read_body, set_threads, solid, solid_boxes, version, write_brep,
 };
 use occt_bridge::{PartitionOptions, partition};
 
@@ -27,7 +27,7 @@ pub(crate) struct FuseJob {
     /// What lies above each lid, as boxes larger than everything.
     pub(crate) above_lids: Vec<[[f64; 3]; 2]>,
     /// The shells, each closed.
-    pub(crate) shells: Vec<Topology>,
+    pub(crate) shells: Vec<Given>,
     /// What bounds the domain besides its block.
     pub(crate) bounds: Vec<Bound>,
     /// Volumes by shell and lid.
@@ -38,6 +38,39 @@ pub(crate) struct FuseJob {
     pub(crate) threads: usize,
     /// Extra tolerance of contacts (m).
     pub(crate) fuzzy: Option<f64>,
+}
+
+/// A closed shell as the kernel is given it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) enum Given {
+    /// As tables.
+    Tables(Topology),
+    /// As the kernel has read it, and where it is to lie.
+    Read {
+        /// What [`Shape::to_bytes`] gave.
+        bytes: Vec<u8>,
+        /// How many times as large.
+        scale: f64,
+        /// Turned by so much, anticlockwise (rad).
+        turn: f64,
+        /// Then moved.
+        at: [f64; 3],
+    },
+}
+
+impl Given {
+    /// As a solid.
+    pub(crate) fn solid(&self) -> Result<Shape, BridgeError> {
+        match self {
+            Self::Tables(topology) => solid(topology),
+            Self::Read {
+                bytes,
+                scale,
+                turn,
+                at,
+            } => Shape::from_bytes(bytes)?.placed(*scale, *turn, *at),
+        }
+    }
 }
 
 /// A base or a top of the domain that is not the block's own.
@@ -182,13 +215,13 @@ fn arguments(job: &FuseJob) -> Result<Vec<Shape>, FuseError> {
     for [low, high] in &job.above_lids {
         arguments.push(box_solid(*low, *high)?);
     }
-    for (shell, topology) in job.shells.iter().enumerate() {
+    for (shell, given) in job.shells.iter().enumerate() {
         let volume = job
             .bodies
             .iter()
             .find(|body| body.shell == shell)
             .map_or(0, |body| body.volume);
-        let made = solid(topology).map_err(|error| FuseError::Shell {
+        let made = given.solid().map_err(|error| FuseError::Shell {
             volume,
             message: error.to_string(),
         })?;

@@ -6,6 +6,7 @@
 //! ([`proof`]). If the proof fails the next remedy is tried; none changes any geometry inside the domain or
 //! draws anything anew. What cannot be proven is refused.
 
+pub(crate) mod boundary;
 mod closed;
 pub mod contacts;
 mod failure;
@@ -17,6 +18,7 @@ pub mod measure;
 mod options;
 mod partitioned;
 pub mod proof;
+mod reading;
 pub(crate) mod shapes;
 mod sides;
 pub(crate) mod splines;
@@ -25,6 +27,7 @@ pub mod worker;
 
 use std::time::{Duration, Instant};
 
+use crate::features::imported::Imported;
 use crate::model::owner::{Owners, OwnersError};
 use crate::model::plan::{AssemblyPlan, PlanError};
 use crate::model::realisation::{Realisation, RealisationError};
@@ -34,6 +37,7 @@ use measure::Measured;
 pub use options::{Engine, Options};
 use partitioned::Partitioned;
 use proof::{Evidence, Proof};
+pub use reading::read_solid;
 use worker::WorkerError;
 
 /// What is going on, for progress bars.
@@ -106,6 +110,11 @@ impl Assembly {
 /// What there is before anything is assembled: the domain as volume 0, then each body whole, by its volume.
 pub(crate) fn bodies(plan: &AssemblyPlan) -> Result<Vec<(usize, kernel::Shape)>, String> {
     fused::bodies(plan)
+}
+
+/// A solid of another program, where a model has it.
+pub(crate) fn solid_of(imported: &Imported) -> Result<kernel::Shape, kernel::BridgeError> {
+    fused::read(imported).solid()
 }
 
 /// What an engine has made, before it is proven.
@@ -189,7 +198,14 @@ pub fn assemble(
         failed: Vec::new(),
         times: [Duration::ZERO; 2],
     };
-    if options.engine != Engine::Occt {
+    // Solids of other programs only the general fuse can take.
+    let has_imported = run.subject.plan.has_imported();
+    if has_imported && options.engine == Engine::Partition {
+        let why = "the partition makes no model that holds a solid of another program: leave `--engine partition` out";
+        run.failed
+            .push(Failed::new(Engine::Partition, "none", why.to_owned()));
+    }
+    if options.engine != Engine::Occt && !has_imported {
         for remedy in &partitioned::REMEDIES {
             if run.failed.iter().any(|failed| failed.coincides) {
                 break;

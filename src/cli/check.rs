@@ -7,7 +7,7 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::print;
-use crate::export::data::DataEntry;
+use crate::export::data::{DataEntry, ImportedEntry};
 use crate::export::wells::entries::{tops, tops_in_words};
 use crate::model::rules::{Rules, Verdict, VolumeRules};
 use crate::model::{Feature, FeatureKind, HorizonSurface, Model, Quantity, meshing, remarks};
@@ -234,6 +234,9 @@ fn text(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> String {
     for (name, file) in model.files() {
         let _ = writeln!(out, "\ndata of {name}: {}", file.described());
     }
+    for (name, solid) in model.solids() {
+        let _ = writeln!(out, "\nsolid of {name}: {}", solid.described());
+    }
     for words in tops_in_words(&tops(model, &loaded.realisation)) {
         let _ = writeln!(out, "\ntops: {words}");
     }
@@ -323,6 +326,7 @@ fn json(loaded: &Loaded, lines: &[Line], remarks: &[String]) -> serde_json::Valu
         "decisions": loaded.realisation.decisions, "notes": notes,
         "remarks": remarks,
         "data": data,
+        "imported": loaded.model.solids().map(|(of, solid)| ImportedEntry::of(of, solid)).collect::<Vec<_>>(),
         "tops": tops(&loaded.model, &loaded.realisation),
         "meshing": meshing::advice(&loaded.realisation) })
 }

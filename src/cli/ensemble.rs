@@ -216,7 +216,9 @@ fn manifest(args: &Args, model: &Model) -> Result<Manifest, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
     let files: Vec<_> = model
         .files()
-        .map(|(of, file)| serde_json::json!({ "of": of, "sha256": file.sha256 }))
+        .map(|(of, file)| (of, &file.sha256))
+        .chain(model.solids().map(|(of, solid)| (of, &solid.sha256)))
+        .map(|(of, sha256)| serde_json::json!({ "of": of, "sha256": sha256 }))
         .collect();
     let common = [
         ("schema", serde_json::json!("clinothem-ensemble-1")),

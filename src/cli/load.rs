@@ -36,7 +36,7 @@ pub(super) fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), 
     } else {
         Source::read(&args.model)
     };
-    let mut source = read.map_err(|error| match &error {
+    let mut source = read.map(with_kernel).map_err(|error| match &error {
         ReadError::Io { source, .. } => Failure::Surroundings(format!("{error}: {source}")),
         _ => Failure::Wrong(error.to_string()),
     })?;
@@ -59,6 +59,13 @@ pub(super) fn model(args: &ModelArgs, json: bool) -> Result<(Model, Selection), 
         .found_in(&model)
         .map_err(|error| Failure::Wrong(error.to_string()))?;
     Ok((model, selection))
+}
+
+/// A source whose solids the kernel reads, if it is there.
+pub(super) fn with_kernel(source: Source) -> Source {
+    #[cfg(feature = "occt")]
+    let source = source.with_solids(crate::assembly::read_solid);
+    source
 }
 
 fn parameters(path: &Path, names: Option<&Path>) -> Result<Parameters, Failure> {

@@ -163,7 +163,9 @@ impl MemberArgs {
     }
 
     fn source(&self) -> Result<Source, Failure> {
-        Source::read(&self.model.model).map_err(|error| Failure::Wrong(error.to_string()))
+        Source::read(&self.model.model)
+            .map(load::with_kernel)
+            .map_err(|error| Failure::Wrong(error.to_string()))
     }
 
     /// Each scenario must be a model, and have a name of its own.

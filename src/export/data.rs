@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::features::fitted::Goal;
-use crate::model::FileSurface;
+use crate::model::{FileSurface, SolidSpec};
 
 /// A file of heights, and the surface that was fitted to it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -64,6 +64,43 @@ impl DataEntry {
             spacing_m: surface.coverage.spacing,
             filled_m: surface.coverage.filled,
             extrapolated_m: surface.coverage.extrapolated,
+        }
+    }
+}
+
+/// A solid of another program, and the file that it comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ImportedEntry {
+    /// The feature that it is.
+    pub of: String,
+    /// The file, as the model names it.
+    pub file: String,
+    /// The SHA-256 of what it holds.
+    pub sha256: String,
+    /// How it is written: STEP or BREP.
+    pub format: &'static str,
+    /// What it counts in: in its own words, or as the model says.
+    pub unit: String,
+    /// How many faces the solid has.
+    pub faces: usize,
+    /// Its volume as the file has it, before it is scaled and cut (m³).
+    pub volume_m3: f64,
+    /// How far its edges may be from its surfaces (m).
+    pub tolerance_m: f64,
+}
+
+impl ImportedEntry {
+    /// Of a feature.
+    pub fn of(of: &str, solid: &SolidSpec) -> Self {
+        Self {
+            of: of.to_owned(),
+            file: solid.file.clone(),
+            sha256: solid.sha256.clone(),
+            format: solid.format,
+            unit: solid.unit.clone(),
+            faces: solid.original.faces(),
+            volume_m3: solid.original.volume(),
+            tolerance_m: solid.original.tolerance(),
         }
     }
 }

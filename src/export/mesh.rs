@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::ExportError;
-use super::boundary::tables;
 use crate::assembly::Assembly;
+use crate::assembly::boundary::tables;
 use crate::assembly::kernel::{self, BoundaryShape};
 use crate::mesh::{self, Fineness, Mesh, Tables, Used};
 

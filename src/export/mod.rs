@@ -3,7 +3,6 @@
 #[cfg(feature = "occt")]
 pub mod bodies;
 #[cfg(feature = "occt")]
-mod boundary;
 #[cfg(feature = "occt")]
 pub mod brep;
 pub mod cps3;

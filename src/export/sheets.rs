@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use super::ExportError;
-use super::boundary::tables;
 use super::mesh::{Triangulation, VolumeMesh, collect, failed};
+use crate::assembly::boundary::tables;
 use crate::assembly::{self, Assembly, kernel};
-use crate::features::body::Role;
+use crate::features::body::{Body, Role};
 use crate::mesh::{self, Fineness, Mesh, Support, Tables, Used};
 use crate::model::plan::AssemblyPlan;
 use crate::model::realisation::Realisation;
@@ -97,6 +97,19 @@ impl Sheets {
         };
         for instance in &realisation.instances {
             let name = &realisation.volumes[instance.volume].name;
+            if let Body::Imported(imported) = &instance.body {
+                // Its faces end where they should.
+                let tables = imported.tables().clone();
+                let mesh = mesh::triangulate(&tables, fineness)?;
+                sheets.all.push(Sheet {
+                    name: format!("{name}/{}", Role::Skin.name()),
+                    volume: instance.volume,
+                    source: sheets.sources.len(),
+                    faces: imported.original().uses().collect(),
+                });
+                sheets.sources.push(Source { tables, mesh });
+                continue;
+            }
             for (role, surface) in surfaces(realisation, instance.volume)? {
                 if !role.is_geological() {
                     continue;

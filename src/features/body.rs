@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3Swizzles};
 
 use super::ellipsoid::Ellipsoid;
 use super::fan;
+use super::imported::Imported;
 pub use super::nudge::Nudge;
 use super::shell::{Shell, ShellError};
 use super::side::{Side, points_bounds};
@@ -64,10 +65,12 @@ pub enum Body {
     Shell(Shell),
     /// What lies on the younger side of open sheets.
     Side(Arc<Side>),
+    /// A solid of another program.
+    Imported(Arc<Imported>),
 }
 
 impl Body {
-    /// All sheets of the closed shell, or of the side.
+    /// All sheets of the closed shell, or of the side; those of a solid of another program reach beyond its faces.
     pub fn sheets(&self) -> Result<Vec<(Role, Surface)>, SurfaceError> {
         match self {
             Self::Trough(trough) => trough.sheets(),
@@ -76,6 +79,12 @@ impl Body {
             Self::Side(side) => {
                 let role = side.role();
                 Ok(side.sheets().iter().map(|s| (role, s.clone())).collect())
+            }
+            Self::Imported(imported) => {
+                let surfaces = imported.surfaces().iter();
+                Ok(surfaces
+                    .map(|surface| (Role::Skin, surface.clone()))
+                    .collect())
             }
         }
     }
@@ -94,6 +103,7 @@ impl Body {
                 let low = DVec3::NEG_INFINITY.with_z(least);
                 (low, DVec3::INFINITY)
             }
+            Self::Imported(imported) => imported.bounds(),
         }
     }
 
@@ -108,19 +118,20 @@ impl Body {
     pub fn level_top(&self, tolerance: f64) -> Option<f64> {
         match self {
             Self::Trough(trough) => trough.level_top(tolerance),
-            Self::Ellipsoid(_) | Self::Shell(_) | Self::Side(_) => None,
+            Self::Ellipsoid(_) | Self::Shell(_) | Self::Side(_) | Self::Imported(_) => None,
         }
     }
 }
 
 impl Body {
-    /// The body a little shallower, longer and elsewhere; sides stay as they are.
+    /// The body a little shallower, longer and elsewhere; sides and solids of other programs stay as they are.
     pub fn nudged(&self, nudge: &Nudge) -> Result<Self, ShellError> {
         Ok(match self {
             Self::Trough(trough) => Self::Trough(trough.nudged(nudge)?),
             Self::Ellipsoid(ellipsoid) => Self::Ellipsoid(ellipsoid.nudged(nudge)?),
             Self::Shell(shell) => Self::Shell(shell.nudged(nudge)?),
             Self::Side(side) => Self::Side(Arc::clone(side)),
+            Self::Imported(imported) => Self::Imported(Arc::clone(imported)),
         })
     }
 }

@@ -80,7 +80,7 @@ impl Fabric {
         match body {
             Body::Ellipsoid(ellipsoid) => Some(Self::of_ellipsoid(ellipsoid)),
             Body::Side(side) => Self::of_side(side, unit, extent),
-            Body::Trough(_) | Body::Shell(_) => None,
+            Body::Trough(_) | Body::Shell(_) | Body::Imported(_) => None,
         }
     }
 

@@ -27,6 +27,7 @@ pub mod frame;
 pub mod free_clinoform;
 pub mod honouring;
 pub mod horizon;
+pub mod imported;
 pub mod join;
 pub mod junction;
 pub mod lag;

@@ -202,7 +202,7 @@ impl Tables {
     }
 
     /// The first reference to something that is not there, in words.
-    pub(super) fn dangling(&self) -> Option<String> {
+    pub fn dangling(&self) -> Option<String> {
         let wrong =
             |what: &str, at: usize| Some(format!("{what} {at} refers to what is not there"));
         for (at, edge) in self.edges.iter().enumerate() {

@@ -11,6 +11,7 @@ use super::domain::Domain;
 use super::place::{Note, Place};
 use super::read::Reader;
 use super::references::Reference;
+use super::solids::SolidReader;
 use super::tree::NodeId;
 
 /// A value is wrong, and the defect is reported: what [`Option`] cannot say of a key that may be left out.
@@ -27,6 +28,8 @@ pub(crate) struct Checker<'t> {
     pub(crate) origin: [f64; 3],
     /// Where the paths of files begin.
     pub(crate) folder: PathBuf,
+    /// Reads solids of CAD programs.
+    pub(crate) solids: Option<SolidReader>,
 }
 
 /// A reference with its place.

@@ -39,6 +39,7 @@ impl Interior {
             Body::Side(side) => Ok(Self::Side(Arc::clone(side))),
             Body::Ellipsoid(ellipsoid) => Ok(Self::Ellipsoid(Arc::new(ellipsoid.clone()))),
             Body::Shell(shell) => Ok(Self::Shell(Arc::clone(shell.inside()))),
+            Body::Imported(imported) => Ok(Self::Shell(Arc::clone(imported.inside()))),
             Body::Trough(_) => {
                 let sheets = body.sheets()?.into_iter().map(|sheet| sheet.1).collect();
                 Ok(Self::Shell(Arc::new(Enclosure::new(sheets)?)))

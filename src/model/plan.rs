@@ -189,6 +189,12 @@ impl AssemblyPlan {
         bounds.filter_map(|(side, is_top)| side.as_ref().map(|side| (is_top, side)))
     }
 
+    /// Whether it has a solid of another program: those the general fuse alone can take.
+    pub fn has_imported(&self) -> bool {
+        let mut shells = self.shells.iter();
+        shells.any(|shell| matches!(shell.body, Body::Imported(_)))
+    }
+
     fn note(&mut self, decision: String) {
         self.decisions.push(decision);
     }
@@ -218,7 +224,7 @@ impl AssemblyPlan {
         }
         let heights = match &*body {
             Body::Side(side) => side.heights(),
-            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => None,
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) | Body::Imported(_) => None,
         };
         if heights.is_some_and(|[_, highest]| highest <= self.low().z) {
             let name = &self.names[instance.volume];
@@ -270,7 +276,7 @@ impl AssemblyPlan {
         let mut tops = vec![Top::Free; bodies.len()];
         let level_of = |body: &Body| match body {
             Body::Side(side) => side.level(),
-            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => None,
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) | Body::Imported(_) => None,
         };
         let level_horizons: Vec<Option<f64>> =
             bodies.iter().map(|one| level_of(&one.body)).collect();
@@ -307,7 +313,7 @@ impl AssemblyPlan {
                 Body::Side(side) => side.heights().is_some_and(|[lowest, highest]| {
                     lowest - same <= level && level <= highest + same
                 }),
-                Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => false,
+                Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) | Body::Imported(_) => false,
             };
             if by_age && !is_shared && level < self.high().z && bodies.iter().any(runs_along) {
                 tops[i] = Top::UnderLid(level);
@@ -335,7 +341,10 @@ impl AssemblyPlan {
         };
         let flush = match (level, &*reaching.body) {
             // Only troughs have a level top.
-            (None, _) | (Some(_), Body::Ellipsoid(_) | Body::Shell(_) | Body::Side(_)) => None,
+            (None, _)
+            | (Some(_), Body::Ellipsoid(_) | Body::Shell(_) | Body::Side(_) | Body::Imported(_)) => {
+                None
+            }
             (Some(level), Body::Trough(trough)) => {
                 let raised = trough.raised().map_err(|source| PlanError {
                     volume: self.names[reaching.volume].clone(),

@@ -304,6 +304,13 @@ fn points_within(body: &Body) -> Box<dyn Iterator<Item = DVec3> + '_> {
             let points = geological.flat_map(move |sheet| beside(&sheet.1, distance));
             Box::new(points.filter(|point| shell.contains(*point)))
         }
+        Body::Imported(imported) => {
+            let (low, high) = imported.bounds();
+            let distance = BESIDE * low.distance(high);
+            let surfaces = imported.surfaces().iter();
+            let points = surfaces.flat_map(move |surface| beside(surface, distance));
+            Box::new(points.filter(|point| imported.inside().contains(*point)))
+        }
         Body::Side(_) => Box::new(std::iter::empty()),
     }
 }

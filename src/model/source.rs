@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use super::parameters::Parameters;
 use super::place::Place;
+use super::solids::SolidReader;
 
 /// Larger files are refused: a model file is written by hand or by a small script.
 pub const LARGEST_FILE: u64 = 64 * 1024 * 1024;
@@ -31,6 +32,8 @@ pub struct Source {
     pub(crate) parameters: Option<Parameters>,
     /// Where the paths of files that the model names begin.
     pub(crate) folder: PathBuf,
+    /// Reads solids of CAD programs.
+    pub(crate) solids: Option<SolidReader>,
 }
 
 /// Why a model file could not be read.
@@ -125,6 +128,7 @@ impl Source {
             assignments: Vec::new(),
             parameters: None,
             folder: PathBuf::new(),
+            solids: None,
         }
     }
 
@@ -133,6 +137,14 @@ impl Source {
     #[must_use]
     pub fn in_folder(mut self, folder: impl Into<PathBuf>) -> Self {
         self.folder = folder.into();
+        self
+    }
+
+    /// Lets solids of CAD programs be read by the kernel (`assembly::read_solid`), or by another reader; without one, a model that names
+    /// such a file has a defect.
+    #[must_use]
+    pub fn with_solids(mut self, reader: SolidReader) -> Self {
+        self.solids = Some(reader);
         self
     }
 

@@ -6,6 +6,7 @@
 use super::domain::Domain;
 use super::facies::Facies;
 use super::kinds::FeatureKind;
+use super::kinds::solid::SolidSpec;
 use super::place::{Note, Place};
 use super::references::{Host, Reference};
 use super::stratum::Stratum;
@@ -95,6 +96,18 @@ impl Model {
             .chain(bases)
             .filter_map(|(name, surface)| match surface {
                 HorizonSurface::File(file) => Some((name, &**file)),
+                _ => None,
+            })
+    }
+}
+
+impl Model {
+    /// The solids that come from files, with the features that they are.
+    pub fn solids(&self) -> impl Iterator<Item = (&str, &SolidSpec)> {
+        self.features
+            .iter()
+            .filter_map(|feature| match &feature.kind {
+                FeatureKind::Solid(solid) => Some((feature.id.as_str(), solid)),
                 _ => None,
             })
     }

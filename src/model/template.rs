@@ -81,6 +81,7 @@ pub const TEMPLATES: &[Template] = templates! {
     "from-files" with [
         "base.asc", "coal.xyz", "lower.irap", "middle.cps3", "sand-base.zmap", "sand-top.zmap", "top.csv", "upper.ts"
     ]: "every surface from a file: seven formats, depths, feet, noise, a hole",
+    "salt" with ["salt.step", "cavern.brep"]: "a salt dome from a CAD program that pierces beds, with a cavern in it",
     "fig03-degrees": "a surface from a control net of degree 1, 2 or 3, with weights",
     "fig07-join": "a surface from three control nets of different degrees that join",
 

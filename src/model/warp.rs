@@ -150,6 +150,9 @@ impl Warp {
 fn closed(body: &Body) -> Result<Shell, ShellError> {
     match body {
         Body::Shell(shell) => Ok(shell.clone()),
-        Body::Trough(_) | Body::Ellipsoid(_) | Body::Side(_) => Shell::new(body.sheets()?),
+        // Solids of other programs are refused where they are made.
+        Body::Trough(_) | Body::Ellipsoid(_) | Body::Side(_) | Body::Imported(_) => {
+            Shell::new(body.sheets()?)
+        }
     }
 }

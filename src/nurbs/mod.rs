@@ -30,13 +30,24 @@ mod knots;
 mod lattice;
 mod length;
 pub mod meet;
+#[cfg_attr(
+    not(feature = "occt"),
+    allow(dead_code, reason = "the proof of assemblies asks for more of it")
+)]
+pub(crate) mod outline;
 pub mod pierce;
 pub mod quadrature;
 mod refine;
 mod reverse;
 mod ruled;
+#[cfg_attr(
+    not(feature = "occt"),
+    allow(dead_code, reason = "the proof of assemblies asks for more of it")
+)]
+pub(crate) mod spline;
 mod split;
 mod surface;
+mod trimmed;
 
 pub use approximate::Approximation;
 pub use closest::{Closest, ClosestOnSurface};
@@ -49,3 +60,4 @@ pub use lattice::{Lattice, LatticeError};
 pub use length::ArcLength;
 pub use refine::RefineError;
 pub use surface::{Surface, SurfaceError};
+pub use trimmed::{Run, TrimError, Trimmed};

@@ -10,11 +10,14 @@ use super::tree::Tree;
 const LAYERS: [(&str, &[&str]); 10] = [
     ("data", &[]),
     ("nurbs", &[]),
-    ("features", &["nurbs"]),
+    ("mesh", &["nurbs"]),
+    ("features", &["mesh", "nurbs"]),
     ("model", &["features", "nurbs", "data"]),
     ("partition", &["nurbs"]),
-    ("assembly", &["partition", "model", "features", "nurbs"]),
-    ("mesh", &["nurbs"]),
+    (
+        "assembly",
+        &["partition", "model", "features", "mesh", "nurbs"],
+    ),
     (
         "export",
         &["mesh", "assembly", "model", "features", "nurbs", "data"],

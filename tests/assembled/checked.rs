@@ -22,7 +22,10 @@ pub fn source(name: &str) -> Source {
 }
 
 pub fn checked(source: &Source) -> Model {
-    Model::check(source).unwrap_or_else(|defects| panic!("{defects}"))
+    let source = source.clone();
+    #[cfg(feature = "occt")]
+    let source = source.with_solids(clinothem::assembly::read_solid);
+    Model::check(&source).unwrap_or_else(|defects| panic!("{defects}"))
 }
 
 /// A model with overrides.

@@ -29,6 +29,7 @@ mod point_bars;
 mod references;
 mod sections;
 mod shorefaces;
+mod solids;
 mod trends;
 mod wells;
 

@@ -91,6 +91,8 @@ fn region(
     let surfaces = match &shell.body {
         Body::Trough(trough) => only(near(trough)?, None),
         Body::Ellipsoid(ellipsoid) => wedges(ellipsoid.skin())?,
+        // A plan that has one is never partitioned.
+        Body::Imported(_) => return Ok(Region::Shell(Vec::new())),
         Body::Shell(shell) => only(shell.sheets().to_vec(), None),
         Body::Side(side) => {
             return Ok(match side.level() {

@@ -4,9 +4,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::scene::Scene;
-use super::spline::Spline;
+use super::spline;
 use super::{Check, Prover};
 use crate::nurbs::Surface;
+use crate::nurbs::spline::Spline;
 use crate::partition::{Edge, Topology};
 
 /// Where in a span an edge is measured: at no place that its making prefers.
@@ -163,7 +164,7 @@ fn off(topology: &Topology, index: usize, beside: &[(usize, bool)]) -> f64 {
     let Some(curve) = edge.curve else {
         return off_pole(topology, edge, beside);
     };
-    let space = Spline::of_space(&topology.curves[curve]);
+    let space = spline::of_space(&topology.curves[curve]);
     if !space.is_sound() {
         return f64::INFINITY;
     }
@@ -250,6 +251,6 @@ fn image<'a>(
         Some(image) if backwards => image,
         _ => on.forward,
     };
-    let spline = Spline::of_plane(&topology.plane_curves[image], edge.range);
+    let spline = spline::of_plane(&topology.plane_curves[image], edge.range);
     spline.is_sound().then_some(spline)
 }

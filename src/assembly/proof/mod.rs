@@ -11,7 +11,6 @@ mod damage;
 mod damage_tests;
 mod extrema;
 mod lines;
-mod outline;
 mod samples;
 mod scene;
 mod spline;

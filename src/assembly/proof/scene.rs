@@ -7,9 +7,9 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::outline::{Course, Outline};
-use super::spline::Spline;
+use super::spline;
 use super::tree::{Bounds, Tree};
+use crate::nurbs::outline::{Course, Outline};
 use crate::nurbs::pierce::{Line, Passage, Target, merged};
 use crate::partition::{Face, Topology};
 
@@ -69,7 +69,7 @@ pub(super) fn course<'a>(
     let own = &topology.edges[edge];
     let (spline, plane) = if let Some(plane) = topology.sheets[face.sheet].plane {
         let [origin, _, x, y] = frame(plane);
-        let spline = Spline::of_space(&topology.curves[own.curve?]);
+        let spline = spline::of_space(&topology.curves[own.curve?]);
         (spline, Some([origin, x, y]))
     } else {
         let on = own.on.iter().find(|on| on.sheet == face.sheet)?;
@@ -78,7 +78,7 @@ pub(super) fn course<'a>(
             _ => on.forward,
         };
         (
-            Spline::of_plane(&topology.plane_curves[image], own.range),
+            spline::of_plane(&topology.plane_curves[image], own.range),
             None,
         )
     };

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::assembly::proof::Check;
-use crate::export::data::DataEntry;
+use crate::export::data::{DataEntry, ImportedEntry};
 use crate::export::wells::entries::{TopEntry, WellEntry};
 
 /// A build's report.
@@ -37,6 +37,9 @@ pub struct Report {
     /// The files of heights that the model names, and how near the surfaces are that were fitted to them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub data: Vec<DataEntry>,
+    /// The solids of other programs that the model names, with their files.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub imported: Vec<ImportedEntry>,
     /// What the wells pass through, each followed by its laterals.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wells: Vec<WellEntry>,

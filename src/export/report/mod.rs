@@ -9,7 +9,7 @@ mod totals;
 use glam::DVec3;
 
 use crate::assembly::{Assembly, kernel};
-use crate::export::data::DataEntry;
+use crate::export::data::{DataEntry, ImportedEntry};
 use crate::export::wells::entries::tops;
 use crate::model::{Facies, labels, remarks};
 
@@ -93,6 +93,10 @@ impl Report {
             data: model
                 .files()
                 .map(|(of, file)| DataEntry::of(of, file))
+                .collect(),
+            imported: model
+                .solids()
+                .map(|(of, solid)| ImportedEntry::of(of, solid))
                 .collect(),
             wells: wells.to_vec(),
             tops: tops(model, realisation),

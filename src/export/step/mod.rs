@@ -35,6 +35,7 @@ use super::text::{ascii, one_line};
 use crate::assembly::kernel::{self, BridgeError};
 use crate::assembly::splines::EXACT;
 use crate::assembly::{self, Assembly};
+use crate::features::body::{Body, Role};
 use crate::model::realisation::Realisation;
 use crate::model::{Model, labels};
 
@@ -127,17 +128,25 @@ pub fn write_surfaces(
                 volume: rules.name.clone(),
                 source,
             })?;
+        let part = |role: Role, at: usize| Node {
+            name: format!("{}/{}", rules.name, role.name()),
+            label: label.map(|label| format!("{label}/{}", role.name())),
+            color: facies.map(color),
+            layer: Some(ascii(role.name())),
+            description: None,
+            content: Content::Shapes(vec![at]),
+        };
         let mut children = Vec::new();
+        if let Body::Imported(imported) = &instance.body {
+            // Its faces end where they should.
+            children.push(part(Role::Skin, faces.len()));
+            faces.push(assembly::solid_of(imported).map_err(|error| kernel_error(&error))?);
+            nodes.push(labelled(group(rules.name.clone(), children), label));
+            continue;
+        }
         // The two ends only close the shell: they are no geological surfaces.
         for (role, surface) in sheets.iter().filter(|(role, _)| role.is_geological()) {
-            children.push(Node {
-                name: format!("{}/{}", rules.name, role.name()),
-                label: label.map(|label| format!("{label}/{}", role.name())),
-                color: facies.map(color),
-                layer: Some(ascii(role.name())),
-                description: None,
-                content: Content::Shapes(vec![faces.len()]),
-            });
+            children.push(part(*role, faces.len()));
             let topology = assembly::shapes::sheet(*role, surface);
             faces.push(kernel::faces(&topology).map_err(|error| kernel_error(&error))?);
         }

@@ -74,6 +74,7 @@ impl Model {
             referring: RefCell::default(),
             origin: [0.0; 3],
             folder: source.folder.clone(),
+            solids: source.solids,
         };
         let (model, defects) = checker.model(parsed.root);
         defects.finish(Arc::clone(&texts), model)

@@ -29,6 +29,7 @@ pub(crate) mod point_bars;
 pub(crate) mod scour;
 pub(crate) mod shear;
 pub(crate) mod sheet;
+pub(crate) mod solid;
 pub(crate) mod splay;
 pub(crate) mod tilt;
 pub(crate) mod trend;
@@ -63,6 +64,7 @@ use point_bars::PointBarsSpec;
 use scour::ScourSpec;
 use shear::ShearSpec;
 use sheet::SheetSpec;
+use solid::SolidSpec;
 use splay::SplaySpec;
 use tilt::TiltSpec;
 use trend::TrendSpec;
@@ -201,6 +203,8 @@ kinds! {
     Body(BodySpec),
     /// A stack of beds of constant thickness, in a fold.
     FoldedBeds(FoldedBedsSpec),
+    /// A closed body from a file of a CAD program.
+    Solid(SolidSpec),
     /// Wedges on the banks of a channel.
     Levee(LeveeSpec),
     /// A lobe of what a flood carried through a bank of a channel.

@@ -37,6 +37,8 @@ struct Part {
     shade: Shade,
     region: Region,
     shape: Shape,
+    /// Whether the outline of a trimmed surface may pass through it.
+    is_cut: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -71,7 +73,7 @@ impl Columns {
             let piece = &shell.patches[whole.patch];
             let parts = whole
                 .parts
-                .get_or_init(|| Tree::new(cut(shell, &piece.patch, self.size), |part| &part.shade));
+                .get_or_init(|| Tree::new(cut(shell, piece, self.size), |part| &part.shade));
             parts.all_over(p, |part| part.count(shell, piece, p, &mut tally))
         });
         tally.outcome()
@@ -94,11 +96,11 @@ impl Part {
         };
         let guess = match projection.judge(p, shell.width) {
             Verdict::Miss => return true,
-            Verdict::Crosses => {
+            Verdict::Crosses(_) if !self.is_cut => {
                 tally.cross();
                 return true;
             }
-            Verdict::Near(guess) => guess,
+            Verdict::Crosses(guess) | Verdict::Near(guess) => guess,
         };
         let (in_u, in_v) = self.region.lengths();
         let jet = |s: DVec2| {
@@ -111,17 +113,22 @@ impl Part {
             }
         };
         if let Some(crossing) = projection.locate(p.xy(), guess, shell.tolerance, jet) {
-            tally.add(piece, &self.region, crossing, p.z, shell.width);
+            let outline = piece.outline.as_deref().filter(|_| self.is_cut);
+            tally.meet(outline, piece, &self.region, crossing, [p.z, shell.width]);
         }
         !tally.on_shell()
     }
 }
 
 /// Cuts a patch into regular and critical parts.
-fn cut(shell: &Shell, patch: &Patch, size: f64) -> Vec<Part> {
+fn cut(shell: &Shell, piece: &Piece, size: f64) -> Vec<Part> {
     let mut parts = Vec::new();
-    let mut stack = vec![(patch.clone(), Region::UNIT, 0)];
+    let mut stack = vec![(piece.patch.clone(), Region::UNIT, 0)];
     while let Some((patch, region, halvings)) = stack.pop() {
+        let side = piece.side(&region);
+        if side == Some(false) {
+            continue;
+        }
         let (low, high) = patch.hull();
         let shape = if let Some(projection) = Projection::new(&patch, shell.tolerance) {
             Shape::Regular(projection)
@@ -145,6 +152,7 @@ fn cut(shell: &Shell, patch: &Patch, size: f64) -> Vec<Part> {
             shade: Shade::new(shell, low, high),
             region,
             shape,
+            is_cut: side.is_none(),
         });
     }
     parts

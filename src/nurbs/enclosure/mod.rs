@@ -11,7 +11,10 @@
 //! **Last resort.** If no direction is clear (a point on a cusp of the shell, say), the point is inside if it is on the
 //! shell or if the majority of what the oblique rays counted says so.
 //!
-//! **Limits.** Edges must pair one to one, so an edge that ends in the middle of a longer one leaves the shell open. A shell
+//! **Trimmed surfaces** count as far as their outlines say. Where an outline passes through a part of a patch, a crossing is located,
+//! and the outline asked for its place; a ray that comes too near to an outline decides nothing, as at any edge.
+//!
+//! **Limits.** Edges of surfaces that are not trimmed must pair one to one, so an edge that ends in the middle of a longer one leaves the shell open. A shell
 //! that crosses itself holds the points that an odd number of its sheets are above.
 
 mod closure;
@@ -22,8 +25,11 @@ mod shade;
 mod shell;
 mod tally;
 
-use super::Surface;
+use std::sync::Arc;
+
 use super::closest::nearest;
+use super::outline::Outline;
+use super::{Surface, Trimmed};
 pub use closure::{EnclosureError, Side};
 use columns::Columns;
 use glam::DVec3;
@@ -66,19 +72,47 @@ impl Enclosure {
             });
         }
         closure::check(&surfaces, tolerance)?;
+        Ok(Self::of(surfaces, &[], tolerance))
+    }
+
+    /// A shell of trimmed surfaces whose edges are no farther apart than a tolerance: that they close, whoever knows them by their
+    /// edges has checked.
+    pub fn trimmed(faces: &[Trimmed], tolerance: f64) -> Result<Self, EnclosureError> {
+        let surfaces: Vec<Surface> = faces.iter().map(|face| face.surface().clone()).collect();
+        if surfaces.is_empty() {
+            return Err(EnclosureError::Empty);
+        }
+        let size = size(&surfaces);
+        if !(tolerance > 0.0 && tolerance < 1e-2 * size) {
+            return Err(EnclosureError::Tolerance {
+                value: tolerance,
+                size,
+            });
+        }
+        let outlines: Vec<_> = faces
+            .iter()
+            .map(|face| Arc::clone(face.outline()))
+            .collect();
+        let tolerance = tolerance.max(CLOSURE * size);
+        Ok(Self::of(surfaces, &outlines, tolerance))
+    }
+
+    fn of(surfaces: Vec<Surface>, outlines: &[Arc<Outline<'static>>], tolerance: f64) -> Self {
+        let size = size(&surfaces);
         let (low, high) = net_box(&surfaces);
         // Far from the origin the coordinates themselves are coarser.
         let reach = low.abs().max(high.abs()).max_element();
         let width = ON_SHELL * size + 2.0 * f64::EPSILON * reach;
-        let shell = Shell::new(&surfaces, 0.5 * (low + high), tolerance, width);
+        let centre = 0.5 * (low + high);
+        let shell = Shell::new(&surfaces, outlines, centre, [tolerance, width]);
         let columns = Columns::new(&shell, size);
-        Ok(Self {
+        Self {
             surfaces,
             shell,
             columns,
             low,
             high,
-        })
+        }
     }
 
     /// Whether p is inside the shell or on it.
@@ -111,7 +145,8 @@ impl Enclosure {
         inside > outside || nearest(patches, p, self.shell.width, 2.0 * self.shell.width).is_some()
     }
 
-    /// The distance from p to the shell if it is below the limit, to within a billionth of the shell's size.
+    /// The distance from p to the shell if it is below the limit, to within a billionth of the shell's size; patches that an outline
+    /// passes through count as wholes.
     pub fn distance(&self, p: DVec3, limit: f64) -> Option<f64> {
         let p = p - self.shell.centre;
         let tolerance = CLOSURE * (self.high - self.low).length();

@@ -84,14 +84,16 @@ fn cross_regular(
     projection: &Projection,
     tally: &mut Tally,
 ) {
+    let piece = &shell.patches[k];
     let guess = match projection.judge(DVec3::ZERO, shell.width) {
         Verdict::Miss => return,
-        Verdict::Crosses => return tally.cross(),
-        Verdict::Near(guess) => guess,
+        Verdict::Crosses(_) if piece.outline.is_none() => return tally.cross(),
+        Verdict::Crosses(guess) | Verdict::Near(guess) => guess,
     };
     let jet = |s: DVec2| patch.jet(s.x, s.y);
     if let Some(crossing) = projection.locate(DVec2::ZERO, guess, shell.tolerance, jet) {
-        tally.add(&shell.patches[k], region, crossing, 0.0, shell.width);
+        let outline = piece.outline.as_deref();
+        tally.meet(outline, piece, region, crossing, [0.0, shell.width]);
     }
 }
 

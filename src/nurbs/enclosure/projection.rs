@@ -32,8 +32,8 @@ pub(super) struct Projection {
 pub(super) enum Verdict {
     /// The ray doesn't cross.
     Miss,
-    /// The ray crosses, away from the patch's sides.
-    Crosses,
+    /// The ray crosses, away from the patch's sides; about here.
+    Crosses(DVec2),
     /// The patch itself must be asked, from here.
     Near(DVec2),
 }
@@ -110,7 +110,7 @@ impl Projection {
         }
         let inside = 0.5 - self.slack;
         if above > unsure && offset.x.abs() < inside && offset.y.abs() < inside {
-            return Verdict::Crosses;
+            return Verdict::Crosses(offset + 0.5);
         }
         Verdict::Near(offset + 0.5)
     }

@@ -1,8 +1,11 @@
 //! The shell as rays meet it: its surfaces as Bézier patches.
 
+use std::sync::Arc;
+
 use crate::nurbs::Surface;
 use crate::nurbs::bezier::{Patch, Region};
-use glam::DVec3;
+use crate::nurbs::outline::Outline;
+use glam::{DVec2, DVec3};
 
 /// The Bézier patches of the surfaces, relative to the middle of the shell so that far-away coordinates cost no digits.
 #[derive(Clone, Debug)]
@@ -25,11 +28,33 @@ pub(super) struct Piece {
     pub(super) domain: Region,
     pub(super) low: DVec3,
     pub(super) high: DVec3,
+    /// Of a surface that is trimmed, if that passes through the patch: how far it goes.
+    pub(super) outline: Option<Arc<Outline<'static>>>,
+}
+
+impl Piece {
+    /// Whether all of a part of the patch belongs to the shell, or nothing of it; `None` if some may.
+    pub(super) fn side(&self, part: &Region) -> Option<bool> {
+        let Some(outline) = &self.outline else {
+            return Some(true);
+        };
+        let corner = |s: f64, t: f64| {
+            let (s, t) = part.at(s, t);
+            let (u, v) = self.region.at(s, t);
+            DVec2::new(u, v)
+        };
+        outline.over(corner(0.0, 0.0), corner(1.0, 1.0))
+    }
 }
 
 impl Shell {
-    /// The patches of surfaces around a centre.
-    pub(super) fn new(surfaces: &[Surface], centre: DVec3, tolerance: f64, width: f64) -> Self {
+    /// The patches of surfaces around a centre, as far as outlines say where there are any.
+    pub(super) fn new(
+        surfaces: &[Surface],
+        outlines: &[Arc<Outline<'static>>],
+        centre: DVec3,
+        [tolerance, width]: [f64; 2],
+    ) -> Self {
         let mut patches = Vec::new();
         for (k, surface) in surfaces.iter().enumerate() {
             let (u, v) = (surface.knots_u().domain(), surface.knots_v().domain());
@@ -40,14 +65,21 @@ impl Shell {
             for (patch, region) in Patch::of_surface(surface) {
                 let patch = patch.mapped(|x| x - centre);
                 let (low, high) = patch.hull();
-                patches.push(Piece {
+                let mut piece = Piece {
                     patch,
                     region,
                     surface: k,
                     domain,
                     low,
                     high,
-                });
+                    outline: outlines.get(k).cloned(),
+                };
+                match piece.side(&Region::UNIT) {
+                    Some(false) => continue,
+                    Some(true) => piece.outline = None,
+                    None => {}
+                }
+                patches.push(piece);
             }
         }
         Self {

@@ -3,6 +3,8 @@
 use super::projection::Crossing;
 use super::shell::Piece;
 use crate::nurbs::bezier::Region;
+use crate::nurbs::outline::Outline;
+use glam::DVec2;
 
 /// What one ray says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,15 +40,46 @@ impl Tally {
         self.count += 1;
     }
 
-    /// A crossing with a part of a patch, for a ray that starts at the height `start`; below `width` the two can't be
-    /// told apart.
+    /// A crossing with a part of a patch that may be cut by an outline: there it counts if that holds the place.
+    pub(super) fn meet(
+        &mut self,
+        outline: Option<&Outline<'_>>,
+        piece: &Piece,
+        part: &Region,
+        crossing: Crossing,
+        ray: [f64; 2],
+    ) {
+        let Some(outline) = outline else {
+            return self.add(piece, part, crossing, ray);
+        };
+        let [start, width] = ray;
+        let above = crossing.height - start;
+        if above < -width {
+            return;
+        }
+        let (in_u, in_v) = part.lengths();
+        let (s, t) = part.at(crossing.parameters.0, crossing.parameters.1);
+        let (u, v) = piece.region.at(s, t);
+        let (patch_u, patch_v) = piece.region.lengths();
+        let slack = DVec2::new(
+            crossing.reach.0 * in_u * patch_u,
+            crossing.reach.1 * in_v * patch_v,
+        );
+        match outline.holds(DVec2::new(u, v), slack) {
+            Some(true) => self.add(piece, part, crossing, ray),
+            Some(false) => {}
+            None if above <= width => self.on_shell = true,
+            None => self.doubt(),
+        }
+    }
+
+    /// A crossing with a part of a patch, for a ray that starts at a height; below a width the two can't be told apart.
     pub(super) fn add(
         &mut self,
         piece: &Piece,
         part: &Region,
         mut crossing: Crossing,
-        start: f64,
-        width: f64,
+        [start, width]: [f64; 2],
     ) {
         let above = crossing.height - start;
         if above.abs() <= width {

@@ -1,14 +1,14 @@
-//! The kernel's tables of faces as those that are triangulated.
+//! The kernel's tables of faces as our own.
 
 use glam::DVec3;
 
-use crate::assembly::kernel::{Boundary, Path, Surface};
+use super::kernel::{Boundary, BoundaryEdge, Path, Surface};
 use crate::mesh;
 use crate::nurbs::{self, Curve, KnotVector};
 
 /// The faces of a boundary, by the same numbers.
-pub(super) fn tables(boundary: &Boundary) -> Result<mesh::Tables, String> {
-    let edge = |edge: &crate::assembly::kernel::BoundaryEdge| mesh::Edge {
+pub(crate) fn tables(boundary: &Boundary) -> Result<mesh::Tables, String> {
+    let edge = |edge: &BoundaryEdge| mesh::Edge {
         curve: edge.curve,
         range: edge.range,
         start: edge.start,

@@ -6,7 +6,8 @@
 
 use glam::{DVec2, DVec3, DVec4, Vec4Swizzles};
 
-use super::spline::{Net, Spline};
+use super::blossom::Net;
+use super::spline::Spline;
 
 /// Halvings of one piece until its hull is as small as rounding.
 const MOST_HALVINGS: usize = 60;
@@ -14,18 +15,21 @@ const MOST_HALVINGS: usize = 60;
 const FEW: usize = 8;
 /// A piece halved so often crosses a height once at most, but by accident.
 const SIMPLE: usize = 3;
+/// Halvings of one piece until its hull says where it is, if a box is asked for.
+const LOOKED_AT: usize = 6;
 /// What rounding may do to a place, as a share of an outline.
 const ROUNDING: f64 = 1e-12;
 
 /// An edge as a loop runs along it.
-pub(super) struct Course<'a> {
-    pub(super) spline: Spline<'a>,
+#[derive(Clone, Debug)]
+pub(crate) struct Course<'a> {
+    pub(crate) spline: Spline<'a>,
     /// The part of it.
-    pub(super) range: [f64; 2],
+    pub(crate) range: [f64; 2],
     /// Whether the loop runs from its end to its start.
-    pub(super) backwards: bool,
+    pub(crate) backwards: bool,
     /// Of a curve in space, the plane that it is seen in: origin and two directions.
-    pub(super) plane: Option<[DVec3; 3]>,
+    pub(crate) plane: Option<[DVec3; 3]>,
 }
 
 impl Course<'_> {
@@ -68,8 +72,8 @@ impl Course<'_> {
 }
 
 /// All loops of a face.
-#[derive(Default)]
-pub(super) struct Outline<'a> {
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outline<'a> {
     courses: Vec<Course<'a>>,
     pieces: Vec<Piece>,
     /// By loop: a polygon on it.
@@ -144,7 +148,7 @@ impl Part {
 
 impl<'a> Outline<'a> {
     /// Adds a loop of edges.
-    pub(super) fn add(&mut self, courses: Vec<Course<'a>>) {
+    pub(crate) fn add(&mut self, courses: Vec<Course<'a>>) {
         let first = self.pieces.len();
         let mut polygon: Vec<DVec2> = Vec::new();
         for course in courses {
@@ -199,7 +203,7 @@ impl<'a> Outline<'a> {
     }
 
     /// Whether the first loop is the outer one: it runs around more than any other one, and these run the other way.
-    pub(super) fn is_in_order(&self) -> bool {
+    pub(crate) fn is_in_order(&self) -> bool {
         let area = |polygon: &Vec<DVec2>| -> f64 {
             let corners = polygon.iter().zip(polygon.iter().cycle().skip(1));
             let parts = corners.map(|(a, b)| (*a - polygon[0]).perp_dot(*b - polygon[0]));
@@ -213,12 +217,12 @@ impl<'a> Outline<'a> {
     }
 
     /// The corners of a box that holds it.
-    pub(super) fn bounds(&self) -> (DVec2, DVec2) {
+    pub(crate) fn bounds(&self) -> (DVec2, DVec2) {
         (self.low, self.high)
     }
 
     /// Whether it holds a place; `None` if that is nearer to its border than the slack.
-    pub(super) fn holds(&self, at: DVec2, slack: DVec2) -> Option<bool> {
+    pub(crate) fn holds(&self, at: DVec2, slack: DVec2) -> Option<bool> {
         let beyond = at.cmplt(self.low - slack).any() || at.cmpgt(self.high + slack).any();
         if beyond {
             return Some(false);
@@ -248,8 +252,29 @@ impl<'a> Outline<'a> {
         Some(inside)
     }
 
+    /// Whether it holds all of a box, or nothing of it; `None` if its border may pass through.
+    pub(crate) fn over(&self, low: DVec2, high: DVec2) -> Option<bool> {
+        let apart = |a: DVec2, b: DVec2| a.cmpgt(high).any() || b.cmplt(low).any();
+        let mut stack: Vec<Part> = Vec::new();
+        for piece in &self.pieces {
+            if !apart(piece.low, piece.high) {
+                stack.push(self.part(piece));
+            }
+            while let Some(part) = stack.pop() {
+                if apart(part.low, part.high) {
+                    continue;
+                }
+                if part.halvings == LOOKED_AT {
+                    return None;
+                }
+                stack.extend(part.halves());
+            }
+        }
+        self.holds(0.5 * (low + high), DVec2::ZERO)
+    }
+
     /// A place within it: the middle of the widest gap at a height.
-    pub(super) fn widest(&self, y: f64) -> Option<DVec2> {
+    pub(crate) fn widest(&self, y: f64) -> Option<DVec2> {
         // A polygon is quick, and not the outline where that is thin and bent.
         self.middle(self.of_polygons(y), y)
             .or_else(|| self.middle(self.exact(y), y))
@@ -317,10 +342,9 @@ impl<'a> Outline<'a> {
 mod tests {
     use super::*;
     use crate::nurbs::{Curve, KnotVector};
-    use crate::partition::CurveShape;
 
     /// A circle in four rational quadratics.
-    fn circle(middle: DVec2, radius: f64) -> CurveShape {
+    fn circle(middle: DVec2, radius: f64) -> Curve {
         let w = 0.5_f64.sqrt();
         let corners = [
             (1.0, 0.0),
@@ -337,13 +361,13 @@ mod tests {
         let points = corners.map(|(x, y)| (middle + radius * DVec2::new(x, y)).extend(7.0));
         let weights = (0..9).map(|k| if k % 2 == 0 { 1.0 } else { w }).collect();
         let knots = KnotVector::new(2, knots).unwrap();
-        CurveShape::Known(Curve::rational(knots, points.to_vec(), weights).unwrap())
+        Curve::rational(knots, points.to_vec(), weights).unwrap()
     }
 
     /// A circle as a loop of one edge, or of two.
-    fn courses(shape: &CurveShape, cut: Option<f64>, backwards: bool) -> Vec<Course<'_>> {
+    fn courses(shape: &Curve, cut: Option<f64>, backwards: bool) -> Vec<Course<'_>> {
         let course = |range: [f64; 2]| Course {
-            spline: Spline::of_space(shape),
+            spline: Spline::of_curve(shape),
             range,
             backwards,
             plane: Some([DVec3::ZERO, DVec3::X, DVec3::Y]),
