@@ -17,7 +17,7 @@ const OLDEST: (u32, u32) = (7, 6);
 const TOO_NEW: u32 = 8;
 
 /// Every shim: one per task.
-const SHIMS: [&str; 11] = [
+const SHIMS: [&str; 10] = [
     "shape",
     "geometry",
     "topology",
@@ -25,14 +25,13 @@ const SHIMS: [&str; 11] = [
     "partition",
     "measure",
     "check",
-    "mesh",
     "step",
     "brep",
     "boundary",
 ];
 
 /// Toolkits whose names never changed.
-const TOOLKITS: [&str; 20] = [
+const TOOLKITS: [&str; 19] = [
     "TKernel",
     "TKMath",
     "TKG2d",
@@ -44,7 +43,6 @@ const TOOLKITS: [&str; 20] = [
     "TKPrim",
     "TKBO",
     "TKShHealing",
-    "TKMesh",
     "TKXSBase",
     "TKCDF",
     "TKLCAF",
