@@ -209,3 +209,77 @@ fn the_fields_tops_are_met_and_the_report_knows_how_far_off_they_were() {
         assert!(decisions.contains(horizon), "{decisions}");
     }
 }
+
+#[test]
+fn beds_whose_thickness_comes_from_a_file_have_that_and_end_where_it_is_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    // In the world and in feet: a bed of 12 m in the west that wedges out at x = 600 m, and one of 10 to 18 m above it.
+    let file = |name: &str, thickness: &dyn Fn(f64, f64) -> f64| {
+        let mut lines = Vec::new();
+        for i in -2..=22 {
+            for j in -2..=17 {
+                let (x, y) = (50.0 * f64::from(i), 50.0 * f64::from(j));
+                let (east, north) = (456_000.0 + x, 6_782_000.0 + y);
+                lines.push(format!("{east} {north} {:.4}\n", thickness(x, y) / 0.3048));
+            }
+        }
+        std::fs::write(folder.path().join(name), lines.concat()).unwrap();
+    };
+    file("wedge.xyz", &|x, _| (12.0 * (1.0 - x / 600.0)).max(0.0));
+    file("sheet.xyz", &|x, y| 10.0 + 0.004 * x + 0.005 * y);
+    let text = r#"
+name = "Isochores"
+origin = [456000, 6782000, 100]
+[domain]
+x = [0, 1000]
+y = [0, 800]
+z = [-120, 0]
+facies = "mud"
+[facies.mud]
+[facies.sand]
+[[feature]]
+id = "base"
+kind = "horizon"
+facies = "sand"
+surface = { dipping = { through = [500, 400, -70], dip_deg = 1, azimuth_deg = 60 } }
+[[feature]]
+id = "shale"
+kind = "horizon"
+facies = "mud"
+surface = { above = "base", thickness = { file = "wedge.xyz", tolerance = 0.05, unit = "ft" } }
+[[feature]]
+id = "cover"
+kind = "horizon"
+facies = "sand"
+surface = { above = "shale", thickness = { file = "sheet.xyz", tolerance = 0.01, unit = "ft" } }
+"#;
+    let source = Source::from_text("isochores.toml", text, Format::Toml).in_folder(folder.path());
+    let model = checked(&source);
+    let of: Vec<&str> = model.files().map(|(of, _)| of).collect();
+    assert_eq!(of, ["shale", "cover"]);
+    let built = Built::new(model, &Selection::default(), Engine::Partition).unwrap();
+    let proof = &built.assembly.proof;
+    assert!(proof.holds(), "{}", proof.failures());
+    // Between the base and the shale: the wedge; a surface within 0.05 m of it is off by less in the mean.
+    let wedge = 12.0 * 600.0 / 2.0 * 800.0;
+    assert!(
+        (built.size("base") - wedge).abs() < 0.03 * 800_000.0,
+        "{} for {wedge}",
+        built.size("base")
+    );
+    let sheet = (10.0 + 0.004 * 500.0 + 0.005 * 400.0) * 800_000.0;
+    assert!(
+        (built.size("shale") - sheet).abs() < 0.03 * 800_000.0,
+        "{} for {sheet}",
+        built.size("shale")
+    );
+    // East of where it ends there is nothing of it.
+    for (x, within) in [(550.0, true), (700.0, false), (900.0, false)] {
+        let z = |x: f64| {
+            -70.0 - (1.0_f64.to_radians()).tan() * (x - 500.0) * 60.0_f64.to_radians().sin()
+        };
+        let at = glam::DVec3::new(x, 400.0, z(x) + 0.3);
+        let is_wedge = built.owners.at(at) == Some(built.volume("base"));
+        assert_eq!(is_wedge, within, "{x}");
+    }
+}
