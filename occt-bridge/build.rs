@@ -17,7 +17,7 @@ const OLDEST: (u32, u32) = (7, 6);
 const TOO_NEW: u32 = 8;
 
 /// Every shim: one per task.
-const SHIMS: [&str; 13] = [
+const SHIMS: [&str; 12] = [
     "shape",
     "geometry",
     "spline",
@@ -26,7 +26,6 @@ const SHIMS: [&str; 13] = [
     "partition",
     "measure",
     "check",
-    "mesh",
     "step",
     "brep",
     "boundary",
@@ -34,7 +33,7 @@ const SHIMS: [&str; 13] = [
 ];
 
 /// Toolkits whose names never changed.
-const TOOLKITS: [&str; 20] = [
+const TOOLKITS: [&str; 19] = [
     "TKernel",
     "TKMath",
     "TKG2d",
@@ -46,7 +45,6 @@ const TOOLKITS: [&str; 20] = [
     "TKPrim",
     "TKBO",
     "TKShHealing",
-    "TKMesh",
     "TKXSBase",
     "TKCDF",
     "TKLCAF",

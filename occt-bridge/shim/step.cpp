@@ -152,7 +152,7 @@ class PartCollector {
 
   bool find_color(const TDF_Label& label, const TDF_Label& occurrence, Quantity_Color& color) const {
     const Handle(XCAFDoc_ColorTool) tool = document_.colors();
-    for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen}) {
+    for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen, XCAFDoc_ColorCurv}) {
       if (tool->GetColor(label, type, color)) return true;
       if (!occurrence.IsNull() && tool->GetColor(occurrence, type, color)) return true;
     }
@@ -160,7 +160,7 @@ class PartCollector {
     TDF_LabelSequence subs;
     XCAFDoc_ShapeTool::GetSubShapes(label, subs);
     for (TDF_LabelSequence::Iterator it(subs); it.More(); it.Next())
-      for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen})
+      for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen, XCAFDoc_ColorCurv})
         if (tool->GetColor(it.Value(), type, color)) return true;
     return false;
   }

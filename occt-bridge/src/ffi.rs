@@ -226,12 +226,6 @@ pub(crate) mod bridge {
         what: String,
     }
 
-    struct MeshData {
-        vertices: Vec<f64>,
-        normals: Vec<f64>,
-        triangles: Vec<u32>,
-    }
-
     struct ReadPartData {
         name: String,
         path: String,
@@ -262,7 +256,6 @@ pub(crate) mod bridge {
         include!("occt-bridge/shim/assembled.hpp");
         include!("occt-bridge/shim/measure.hpp");
         include!("occt-bridge/shim/check.hpp");
-        include!("occt-bridge/shim/mesh.hpp");
         include!("occt-bridge/shim/step.hpp");
         include!("occt-bridge/shim/brep.hpp");
         include!("occt-bridge/shim/boundary.hpp");
@@ -327,19 +320,6 @@ pub(crate) mod bridge {
         ) -> Result<u8>;
 
         fn find_defects(solids: &SolidsHandle, parallel: bool) -> Result<Vec<DefectData>>;
-
-        fn mesh_shape(
-            shape: &ShapeHandle,
-            deflection: f64,
-            angle: f64,
-            parallel: bool,
-        ) -> Result<Vec<MeshData>>;
-        fn mesh_solids(
-            solids: &SolidsHandle,
-            deflection: f64,
-            angle: f64,
-            parallel: bool,
-        ) -> Result<Vec<MeshData>>;
 
         fn read_parts(
             path: &str,

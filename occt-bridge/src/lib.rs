@@ -32,7 +32,6 @@ mod geometry;
 mod making;
 mod measure;
 mod merge;
-mod mesh;
 mod monitor;
 mod partition;
 mod shape;
@@ -57,7 +56,6 @@ pub use measure::{
     Bounds, Classifier, FaceIntegral, FaceSample, Position, area, bounds, face_integrals,
     face_samples, solid_boxes, volume,
 };
-pub use mesh::{FaceMesh, MeshOptions, triangulate, triangulate_solids};
 pub use monitor::Cancel;
 pub use partition::{Partition, PartitionOptions, UNUSED_FACES, partition};
 pub use shape::{Shape, ShapeKind, compound, version};

@@ -15,9 +15,9 @@ use std::sync::{Mutex, OnceLock};
 use bodies::measured::{self, close, cut, volumes};
 use bodies::{Course, cylinder_topology, ellipsoid_topology};
 use occt_bridge::{
-    BridgeError, Cancel, Classifier, MeshOptions, Partition, PartitionOptions, Position, Shape,
-    Solids, Threads, area, bounds, box_solid, defects, face_integrals, face_samples, partition,
-    set_threads, solid, triangulate, triangulate_solids, volume,
+    BridgeError, Cancel, Classifier, Partition, PartitionOptions, Position, Shape, Solids, Threads,
+    area, bounds, box_solid, defects, face_integrals, face_samples, partition, set_threads, solid,
+    volume,
 };
 
 fn youngest_in_first(partition: &Partition) -> Solids {
@@ -325,67 +325,6 @@ fn a_classifier_tells_in_from_out_and_refuses_what_is_no_point() {
     let mut t = ellipsoid_topology([0.0; 3], [1.0; 3]);
     t.tolerance = 1e-7;
     assert!(Classifier::new(&occt_bridge::faces(&t).unwrap()).is_err());
-}
-
-#[test]
-fn triangles_close_a_solid_and_come_near_its_volume() {
-    let options = MeshOptions {
-        deflection: 0.002,
-        angle: 0.2,
-        threads: Threads::All,
-    };
-    let shape = solid(&ellipsoid_topology([10.0, 0.0, 0.0], [3.0, 2.0, 1.5])).unwrap();
-    let mesh = triangulate(&shape, &options).unwrap();
-    assert_eq!(mesh.len(), 1);
-    let mut six_volumes = 0.0;
-    for [a, b, c] in &mesh[0].triangles {
-        let [p, q, r] = [a, b, c].map(|i| mesh[0].vertices[*i as usize]);
-        six_volumes += p[0] * (q[1] * r[2] - q[2] * r[1])
-            + p[1] * (q[2] * r[0] - q[0] * r[2])
-            + p[2] * (q[0] * r[1] - q[1] * r[0]);
-    }
-    close(six_volumes / 6.0, 12.0 * PI, 5e-3);
-    for (p, n) in mesh[0].vertices.iter().zip(&mesh[0].normals) {
-        let gradient = [(p[0] - 10.0) / 9.0, p[1] / 4.0, p[2] / 2.25];
-        let length = gradient.iter().map(|g| g * g).sum::<f64>().sqrt();
-        let cosine: f64 = (0..3).map(|i| gradient[i] * n[i]).sum::<f64>() / length;
-        assert!(cosine > 0.9, "{p:?} {n:?}");
-    }
-    // The same twice, and on one thread.
-    assert_eq!(mesh, triangulate(&shape, &options).unwrap());
-    let solids = belt_solids();
-    let options = MeshOptions {
-        deflection: 0.5,
-        angle: 0.4,
-        threads: Threads::All,
-    };
-    let one = MeshOptions {
-        threads: Threads::One,
-        ..options
-    };
-    let meshes = triangulate_solids(solids, &options).unwrap();
-    assert_eq!(meshes.len(), solids.faces().len());
-    assert_eq!(meshes, triangulate_solids(solids, &one).unwrap());
-    assert!(
-        triangulate(
-            &shape,
-            &MeshOptions {
-                deflection: 0.0,
-                ..options
-            }
-        )
-        .is_err()
-    );
-    assert!(
-        triangulate(
-            &shape,
-            &MeshOptions {
-                angle: f64::NAN,
-                ..options
-            }
-        )
-        .is_err()
-    );
 }
 
 #[test]

@@ -363,7 +363,8 @@ fn described(surface: &HorizonSurface) -> String {
                 rows.len()
             )
         }
-        HorizonSurface::File(file) => file.described(),
+        // What became of it stands among the data.
+        HorizonSurface::File(file) => format!("from {}", file.file),
         // Not of the domain's base or top.
         HorizonSurface::Above { .. } => "as thick above another horizon as given".to_owned(),
     }

@@ -12,7 +12,8 @@ use super::print;
 use crate::export::wells::entries::{WellEntry, Wells};
 use crate::export::wells::gocad::GocadWell;
 use crate::export::wells::las::Las;
-use crate::export::wells::table;
+use crate::export::wells::pline;
+use crate::export::{step, table};
 use crate::features::survey::Station;
 use crate::features::well::{Path, Well};
 use crate::model::Place;
@@ -23,13 +24,15 @@ use crate::nurbs::interpolate::Parametrization;
 /// Tell what the model's wells pass through, or a vertical line anywhere: volumes by measured depth, or a log.
 ///
 /// Needs no kernel: paths are met with the surfaces themselves, and the point evaluator names what lies between. A table is
-/// printed, or written as CSV; a file whose name ends in .las is a log at even steps.
+/// printed, or written as CSV; a file whose name ends in .las is a log at even steps. Paths are written as curves that are split where they
+/// pass from one volume to another (.step), or as lines (.pl, .wl).
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   clinothem log coastal.toml --at 180,330
   clinothem log fig02-wells.toml
   clinothem log fig02-wells.toml --well A-1 -o A-1.las --step 0.25
-  clinothem log fig02-wells.toml -o wells.csv")]
+  clinothem log fig02-wells.toml -o wells.csv
+  clinothem log fig02-wells.toml -o wells.step")]
 pub(super) struct Args {
     #[command(flatten)]
     model: ModelArgs,
@@ -42,8 +45,8 @@ pub(super) struct Args {
     /// From line to line of a log, in the unit of the well's depths.
     #[arg(long, value_name = "LENGTH", value_parser = finite, default_value = "0.1", allow_negative_numbers = true)]
     step: f64,
-    /// Where to write; the name's ending decides the format: .csv, .las (a log), .wl (a GOCAD well: the path with markers). Printed as
-    /// CSV if not given.
+    /// Where to write; the name's ending decides the format: .csv, .las (a log), .wl (a GOCAD well: the path with markers), .pl (GOCAD
+    /// lines, of all wells), .step (exact curves, of all wells). Printed as CSV if not given.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Print JSON: what a build's report says of wells.
@@ -57,6 +60,8 @@ enum Format {
     Csv,
     Las,
     Gocad,
+    Pline,
+    Step,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -79,6 +84,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         };
         return files::write(path, of_one(args, format, &loaded, spec, log)?.as_bytes());
     }
+    if let (Format::Pline, Some(path)) = (format, &args.output) {
+        let wells: Vec<GocadWell<'_>> = chosen
+            .iter()
+            .zip(&logs)
+            .map(|(spec, log)| gocad(&loaded, spec, log))
+            .collect();
+        return files::write(path, pline::text(&wells).as_bytes());
+    }
     let wells = Wells {
         model: &loaded.model,
         realisation: &loaded.realisation,
@@ -93,7 +106,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .map_err(|error| Failure::Surroundings(error.to_string()))?;
         return print::out(&json);
     }
-    let csv = table::csv(&entries).map_err(|error| Failure::Surroundings(error.to_string()))?;
+    if let (Format::Step, Some(path)) = (format, &args.output) {
+        let pairs: Vec<_> = chosen.iter().zip(&entries).collect();
+        let (model, realisation) = (&loaded.model, &loaded.realisation);
+        return step::write_wells(path, model, realisation, &pairs, step::Protocol::default())
+            .map_err(|error| Failure::Surroundings(error.to_string()));
+    }
+    let csv = table::csv(&table::wells(&entries))
+        .map_err(|error| Failure::Surroundings(error.to_string()))?;
     match &args.output {
         Some(path) => files::write(path, csv.as_bytes()),
         None => print::out(csv.trim_end()),
@@ -108,25 +128,27 @@ fn of_one(
     spec: &WellSpec,
     log: &WellLog,
 ) -> Result<String, Failure> {
-    let (model, realisation) = (&loaded.model, &loaded.realisation);
     if format == Format::Gocad {
-        let well = GocadWell {
-            model,
-            realisation,
-            spec,
-            log,
-        };
-        return Ok(well.text());
+        return Ok(gocad(loaded, spec, log).text());
     }
     let las = Las {
-        model,
-        realisation,
+        model: &loaded.model,
+        realisation: &loaded.realisation,
         spec,
         log,
         step: args.step,
     };
     las.text()
         .map_err(|error| Failure::Wrong(error.to_string()))
+}
+
+fn gocad<'a>(loaded: &'a Loaded, spec: &'a WellSpec, log: &'a WellLog) -> GocadWell<'a> {
+    GocadWell {
+        model: &loaded.model,
+        realisation: &loaded.realisation,
+        spec,
+        log,
+    }
 }
 
 /// What the output's name asks for.
@@ -141,8 +163,10 @@ fn format(args: &Args) -> Result<Format, Failure> {
         Some("csv") => Ok(Format::Csv),
         Some("las") => Ok(Format::Las),
         Some("wl") => Ok(Format::Gocad),
+        Some("pl") => Ok(Format::Pline),
+        Some("step" | "stp") => Ok(Format::Step),
         _ => Err(Failure::Wrong(format!(
-            "{}: a log's name ends in .csv, .las or .wl",
+            "{}: a log's name ends in .csv, .las, .wl, .pl or .step",
             path.display()
         ))),
     }

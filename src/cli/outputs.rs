@@ -11,7 +11,7 @@ use crate::assembly::unfinished::{self, Unfinished};
 use crate::export::mesh::Triangulation;
 use crate::export::report::Report;
 use crate::export::vertical::Vertical;
-use crate::export::{ExportError, brep, numbers, step, table, wells};
+use crate::export::{ExportError, brep, numbers, step, table};
 
 /// What is written, and where.
 #[derive(Debug, clap::Args)]
@@ -22,7 +22,8 @@ pub(super) struct OutputArgs {
     /// Write into a folder that holds other things than a build's results.
     #[arg(long)]
     force: bool,
-    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep; closed triangles as glb and obj
+    /// Files to write: step (named, coloured parts), step-shared (one shape with common faces), brep,
+    /// step-wells (the wells as curves split where they pass from one volume to another); closed triangles as glb and obj
     /// (all volumes), stl, ply and ts (a file each, in a folder of that name); xlsx (all tables as one workbook), csv (each table
     /// as a file); none for volumes.csv and the report only.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "step")]
@@ -42,6 +43,7 @@ pub(super) struct OutputArgs {
 pub(super) enum Format {
     Step,
     StepShared,
+    StepWells,
     Brep,
     Glb,
     Obj,
@@ -63,9 +65,13 @@ impl Format {
             Self::Stl => Some(triangles::Format::Stl),
             Self::Ply => Some(triangles::Format::Ply),
             Self::Ts => Some(triangles::Format::Ts),
-            Self::Step | Self::StepShared | Self::Brep | Self::Xlsx | Self::Csv | Self::None => {
-                None
-            }
+            Self::Step
+            | Self::StepShared
+            | Self::StepWells
+            | Self::Brep
+            | Self::Xlsx
+            | Self::Csv
+            | Self::None => None,
         }
     }
 }
@@ -90,6 +96,10 @@ impl From<Schema> for step::Protocol {
 
 /// What the names of folders of unfinished files begin with.
 const UNFINISHED: &str = ".unfinished-";
+
+/// Parts of the stage of files, in `run.json`: the STEP file of parts, and triangles of all solids before they are written.
+const FILES_STEP: &str = "files, step";
+const FILES_TRIANGLES: &str = "files, triangles";
 
 /// What differs from run to run; its presence marks a folder of results.
 const RUN: &str = "run.json";
@@ -130,11 +140,13 @@ impl<'a> Outputs<'a> {
         std::fs::create_dir_all(&self.folder).map_err(failed)?;
         let staging = Unfinished::new(&self.folder, UNFINISHED).map_err(failed)?;
         interrupt::unfinished_in(Some(if is_new { &self.folder } else { staging.path() }));
+        let mut parts = Vec::new();
         let result = self
-            .write_files(staging.path(), built, report)
+            .write_files(staging.path(), built, report, &mut parts)
             .and_then(|mut names| {
                 let mut timings = built.timings.clone();
                 timings.push(("files", writing.elapsed()));
+                timings.append(&mut parts);
                 let run = run_json(&timings, started.elapsed());
                 std::fs::write(staging.path().join(RUN), run).map_err(failed)?;
                 names.push(RUN.to_owned());
@@ -172,6 +184,7 @@ impl<'a> Outputs<'a> {
         staging: &Path,
         built: &Built,
         report: &Report,
+        timings: &mut Vec<(&'static str, Duration)>,
     ) -> Result<Vec<String>, Failure> {
         let (model, realisation) = (&built.model, &built.subject.realisation);
         let protocol = self.args.step_schema.into();
@@ -186,6 +199,11 @@ impl<'a> Outputs<'a> {
             let name = match format {
                 Format::Step => format!("{}.step", self.stem),
                 Format::StepShared => format!("{}.shared.step", self.stem),
+                Format::StepWells if report.wells.is_empty() => {
+                    print::err("note: the model has no wells, so there is no file of them");
+                    continue;
+                }
+                Format::StepWells => format!("{}.wells.step", self.stem),
                 Format::Brep => format!("{}.brep", self.stem),
                 Format::Glb
                 | Format::Obj
@@ -200,6 +218,7 @@ impl<'a> Outputs<'a> {
                 continue;
             }
             let path = staging.join(&name);
+            let started = Instant::now();
             match format {
                 Format::Step => {
                     step::write_assembly(&path, model, realisation, &built.assembly, protocol)
@@ -207,12 +226,19 @@ impl<'a> Outputs<'a> {
                 Format::StepShared => {
                     step::write_shared(&path, model, realisation, &built.assembly, protocol)
                 }
+                Format::StepWells => {
+                    let wells: Vec<_> = model.wells.iter().zip(&report.wells).collect();
+                    step::write_wells(&path, model, realisation, &wells, protocol)
+                }
                 _ => brep::write(&path, &built.assembly),
             }
             .map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
+            if *format == Format::Step {
+                timings.push((FILES_STEP, started.elapsed()));
+            }
             names.push(name);
         }
-        names.extend(self.write_triangles(staging, built)?);
+        names.extend(self.write_triangles(staging, built, timings)?);
         // Only shapes whose solids share faces need numbers: parts have names.
         if has_shared {
             let failed = |error: ExportError| Failure::Surroundings(error.to_string());
@@ -254,8 +280,10 @@ impl<'a> Outputs<'a> {
                 files.push((format!("{}.xlsx", self.stem), bytes));
             }
             if asked(Format::Csv) {
-                // That of volumes is always there.
-                let others = sheets.iter().filter(|sheet| sheet.name != table::VOLUMES);
+                // Those of volumes and of wells are always there.
+                let is_other =
+                    |sheet: &&table::Sheet| ![table::VOLUMES, table::WELLS].contains(&sheet.name);
+                let others = sheets.iter().filter(is_other);
                 for sheet in others {
                     files.push(csv(sheet)?);
                 }
@@ -263,8 +291,7 @@ impl<'a> Outputs<'a> {
         }
         files.push(csv(&table::volumes(report))?);
         if !report.wells.is_empty() {
-            let text = wells::table::csv(&report.wells).map_err(|error| failed(&error))?;
-            files.push(("wells.csv".to_owned(), text.into_bytes()));
+            files.push(csv(&table::wells(&report.wells))?);
         }
         let json = report.to_json().map_err(|error| failed(&error))?;
         files.push(("report.json".to_owned(), json.into_bytes()));
@@ -272,7 +299,12 @@ impl<'a> Outputs<'a> {
     }
 
     /// The volumes as closed triangles, in the formats of these. Returns the files' names.
-    fn write_triangles(&self, staging: &Path, built: &Built) -> Result<Vec<String>, Failure> {
+    fn write_triangles(
+        &self,
+        staging: &Path,
+        built: &Built,
+        timings: &mut Vec<(&'static str, Duration)>,
+    ) -> Result<Vec<String>, Failure> {
         let mut formats: Vec<triangles::Format> = Vec::new();
         for format in self
             .args
@@ -289,9 +321,11 @@ impl<'a> Outputs<'a> {
         }
         let args = &self.args.triangles;
         let fineness = args.fineness(&built.subject.plan)?;
+        let started = Instant::now();
         let meshes = Triangulation::new(&built.assembly, &fineness)
             .and_then(|triangles| triangles.volumes(&built.assembly))
             .map_err(|error| triangles::failed(&error))?;
+        timings.push((FILES_TRIANGLES, started.elapsed()));
         let meshes = meshes.into_iter().map(|mesh| (None, mesh)).collect();
         let origin = args.origin(&built.model);
         let parts = triangles::parts(

@@ -16,6 +16,8 @@ pub struct Coverage {
     pub extrapolated: f64,
     /// What two neighbouring heights are apart, of as many over as large an area (m).
     pub spacing: f64,
+    /// The plan's diagonal (m).
+    pub diagonal: f64,
 }
 
 impl Coverage {
@@ -48,7 +50,13 @@ impl Coverage {
             filled,
             extrapolated,
             spacing: (area / places.len() as f64).sqrt(),
+            diagonal: low.distance(high),
         }
+    }
+
+    /// Whether it is extrapolated by more than what everybody leaves at the border: a step of the data.
+    pub fn reaches_beyond(&self) -> bool {
+        self.extrapolated > self.spacing.min(0.02 * self.diagonal)
     }
 
     /// Whether there are holes: places farther from all heights than those are from each other, as a rule.

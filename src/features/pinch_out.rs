@@ -344,9 +344,9 @@ impl Absence {
 /// those with a thickness say by themselves, but by no more than the greatest of these.
 pub fn continued_points(
     points: &[[f64; 3]],
-    tolerance: f64,
     least: f64,
     given: &Horizon,
+    fit: &dyn Fn(&[DVec3]) -> Result<Horizon, HorizonError>,
 ) -> Result<Horizon, HorizonError> {
     let points: Vec<DVec3> = points
         .iter()
@@ -358,13 +358,13 @@ pub fn continued_points(
         return Ok(given.clone());
     }
     let thickest = thick.iter().map(|point| point.z).fold(0.0, f64::max);
-    let by_themselves = Horizon::points(&thick, tolerance)?;
+    let by_themselves = fit(&thick)?;
     let below = none.iter().map(|point| {
         let continued = by_themselves.height(point.x, point.y);
         point.with_z(continued.clamp(-thickest, -BELOW * thickest))
     });
     let all: Vec<DVec3> = thick.iter().copied().chain(below).collect();
-    Horizon::points(&all, tolerance)
+    fit(&all)
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use super::stratum::Stratum;
 use super::values::conform::ConformSpec;
 use super::values::property::PropertySpec;
 use super::values::selector::Selector;
-use super::values::surface::{FileSurface, HorizonSurface};
+use super::values::surface::FileSurface;
 use super::wells::spec::{TopSpec, WellSpec};
 
 /// A checked model.
@@ -79,7 +79,7 @@ pub struct Feature {
 }
 
 impl Model {
-    /// The surfaces that come from files, with whose they are: the domain's base and top, then those of features in their order.
+    /// The surfaces and thicknesses that come from files, with whose they are: the domain's base and top, then those of features in their order.
     pub fn files(&self) -> impl Iterator<Item = (&str, &FileSurface)> {
         let bounds = [
             ("domain.base", &self.domain.base),
@@ -94,10 +94,7 @@ impl Model {
         });
         bounds
             .chain(bases)
-            .filter_map(|(name, surface)| match surface {
-                HorizonSurface::File(file) => Some((name, &**file)),
-                _ => None,
-            })
+            .filter_map(|(name, surface)| Some((name, surface.file()?)))
     }
 }
 

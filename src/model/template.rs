@@ -82,6 +82,10 @@ pub const TEMPLATES: &[Template] = templates! {
         "base.asc", "coal.xyz", "lower.irap", "middle.cps3", "sand-base.zmap", "sand-top.zmap", "top.csv", "upper.ts"
     ]: "every surface from a file: seven formats, depths, feet, noise, a hole",
     "salt" with ["salt.step", "cavern.brep"]: "a salt dome from a CAD program that pierces beds, with a cavern in it",
+    "field" with [
+        "base.asc", "coal-measures.zmap", "f-1.csv", "f-2.las", "lower-sand.irap", "marine-shale.irap", "p-1.dev", "p-2.dev", "p-3.dev",
+        "top.csv", "tops.csv", "unconformity.ts", "upper-sand.cps3"
+    ]: "a tilted block below an unconformity: horizons, wells and tops from files, horizons brought to the tops",
     "fig03-degrees": "a surface from a control net of degree 1, 2 or 3, with weights",
     "fig07-join": "a surface from three control nets of different degrees that join",
 

@@ -229,3 +229,58 @@ fn good_data_are_taken_as_they_are() {
         .height(120.0, 70.0);
     assert!((at - height(120.0, 70.0) + 25.0).abs() < 1e-6, "{at}");
 }
+
+/// A model with a bed whose thickness comes from `thickness.xyz`, beside the surface below it.
+const BED: &str = r#"
+[[feature]]
+id = "bed"
+kind = "horizon"
+facies = "mud"
+surface = { above = "top", thickness = { file = "thickness.xyz", tolerance = 0.5 } }
+"#;
+
+#[rustfmt::skip]
+const THICKNESSES: &[(&str, &str, &[&str])] = &[
+    ("\"thickness.xyz\"", "▸\"nowhere.xyz\"", &["there is no such file", "the thickness below the surface of feature \"bed\""]),
+    ("file = \"thickness.xyz\", tolerance", "file = \"thickness.xyz\", positive = ▸\"down\", tolerance", &["a thickness points nowhere", "remove it"]),
+    ("{ file = \"thickness.xyz\", tolerance = 0.5 }", "▸{ file = \"thickness.xyz\" }", &["neither `tolerance` nor `smooth`"]),
+    ("file = \"thickness.xyz\", tolerance", "points = [[0, 0, 1], [9, 0, 1], [0, 9, 1]], unit = ▸\"ft\", tolerance", &["a `unit` without `file`"]),
+    ("{ file = \"thickness.xyz\", tolerance = 0.5 }", "▸{ file = \"thickness.xyz\", points = [[0, 0, 1], [9, 0, 1], [0, 9, 1]], tolerance = 0.5 }", &["has 2 forms: points, file"]),
+    ("file = \"thickness.xyz\", tolerance", "file = \"thickness.xyz\", ▸unti = \"ft\", tolerance", &["unknown key `unti`", "did you mean `unit`?"]),
+];
+
+#[test]
+fn thicknesses_from_files_that_say_nothing_or_are_none_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("top.xyz"), good()).unwrap();
+    let model = format!("{MODEL}{BED}");
+    let with = |thickness: &dyn Fn(f64, f64) -> f64| {
+        let file = written(|x, y| [456_000.0 + x, 6_782_000.0 + y, thickness(x, y)]);
+        std::fs::write(folder.path().join("thickness.xyz"), file).unwrap();
+    };
+    with(&|x, _| 0.05 * (x + 100.0));
+    assert!(check(folder.path(), &model).is_ok());
+    for (find, replace, words) in THICKNESSES {
+        let (text, place) = edited(&model, find, replace);
+        let defects = check(folder.path(), &text).expect_err(&text);
+        let first = defects.iter().next().unwrap();
+        let own = (first.place().line, first.place().column);
+        assert_eq!(Some(own), place, "{replace}\n{defects}");
+        let all = format!("{}\n{}", first.message(), first.remedy());
+        for word in *words {
+            assert!(all.contains(word), "{replace}: {word}\n{defects}");
+        }
+    }
+    // What no thickness can be: nulls, and feet in a domain that is 200 m high.
+    for (thickness, words) in [
+        (
+            &(|x: f64, _: f64| if x > 250.0 { -999.25 } else { 5.0 }) as &dyn Fn(f64, f64) -> f64,
+            "write null = -999.25",
+        ),
+        (&|x: f64, _: f64| 250.0 + 0.1 * x, "write unit = \"ft\""),
+    ] {
+        with(thickness);
+        let said = check(folder.path(), &model).expect_err(words).to_string();
+        assert!(said.contains(words), "{said}");
+    }
+}

@@ -39,6 +39,8 @@ const EDITS: &[Edit] = &[
     ("[[700, 780]]", "[▸[300, 780]]", &["not on lateral \"north\""]),
     ("at_md = 500", "at_md = ▸950", &["cannot leave well \"A-1\"", "950", "from 0 to 900"]),
     ("at_md = 500, ", "", &["has no `at_md`"]),
+    ("{ id = \"north\", ", "{ id = \"north\", laterals = ▸7, ", &["expected a list of laterals for lateral \"north\" of well \"A-1\""]),
+    ("{ id = \"north\", ", "{ id = \"north\", laterals = [{ id = \"deep\", at_md = ▸450, survey = [{ md = 700, inc_deg = 20, azi_deg = 30 }] }], ", &["lateral \"deep\" of lateral \"north\" of well \"A-1\" cannot leave lateral \"north\"", "from 500 to 800"]),
     ("laterals = [{ id", "laterals = 7 #", &["laterals"]),
     (FIRST, "{ md = 0, inc_deg = 0, azi_deg = 0, ▸azm = 0 },\n", &["unknown key `azm`", "azi_deg"]),
     (FIRST, "▸{ md = 0, inc_deg = 0 },\n", &["has no `azi_deg`"]),

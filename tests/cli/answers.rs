@@ -58,13 +58,18 @@ fn machines_read_json_from_standard_output_and_nothing_else() {
     assert_eq!(checked["features"].as_array().map(Vec::len), Some(2));
     let located = sandbox.json("locate model.toml 300 200 -19 --json");
     assert_eq!(located["volume"], "background");
-    let report = sandbox.json("build model.toml -o out --json");
+    let report = sandbox.json("build model.toml -o out --formats step,ply --json");
     let written: Value =
         serde_json::from_slice(&std::fs::read(sandbox.path("out/report.json")).unwrap()).unwrap();
     assert_eq!(report, written, "what is printed is what is written");
     let run: Value =
         serde_json::from_slice(&std::fs::read(sandbox.path("out/run.json")).unwrap()).unwrap();
     assert!(run["seconds"]["total"].as_f64() > Some(0.0));
+    // Of the files, what takes long is told by itself.
+    for part in ["files, step", "files, triangles"] {
+        let seconds = run["seconds"][part].as_f64();
+        assert!(seconds > Some(0.0) && seconds < run["seconds"]["files"].as_f64());
+    }
     for (schema, instance) in [("schema --report", Some(&report)), ("schema", None)] {
         let schema = sandbox.json(schema);
         let validator = jsonschema::validator_for(&schema).unwrap();

@@ -112,7 +112,15 @@ impl Entities {
         for part in self.named("STYLED_ITEM") {
             let item = *self.below(part).last().unwrap();
             let name = self.body(item).split('(').next().unwrap();
-            assert!(["MANIFOLD_SOLID_BREP", "BREP_WITH_VOIDS", "ADVANCED_FACE"].contains(&name));
+            assert!(
+                [
+                    "MANIFOLD_SOLID_BREP",
+                    "BREP_WITH_VOIDS",
+                    "ADVANCED_FACE",
+                    "GEOMETRIC_CURVE_SET"
+                ]
+                .contains(&name)
+            );
         }
     }
 

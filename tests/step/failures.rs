@@ -30,6 +30,18 @@ fn a_document_that_does_not_fit_is_refused_by_the_name_of_the_node() {
     assert!(message.contains("\"empty\" has no shapes"), "{message}");
     let message = refusal(&document(vec![group("belt", Vec::new())]));
     assert!(message.contains("\"belt\" has no parts"), "{message}");
+    let wire = |curves: Vec<usize>| {
+        let mut wire = part("A-1", [0; 3], Vec::new());
+        wire.content = Content::Curves(curves);
+        document(vec![wire])
+    };
+    let message = refusal(&wire(Vec::new()));
+    assert!(message.contains("\"A-1\" has no curves"), "{message}");
+    let message = refusal(&wire(vec![0, 12]));
+    assert!(
+        message.contains("\"A-1\" names curve 12, but there are 12"),
+        "{message}"
+    );
     let mut good = document(vec![part("sand", [0; 3], vec![0])]);
     assert!(assembly(&good, &boundary(&[cube()]).unwrap()).is_ok());
     good.root.content = Content::Nodes(Vec::new());

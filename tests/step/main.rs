@@ -18,6 +18,7 @@ mod flavours;
 mod models;
 mod seams;
 mod text;
+mod wires;
 
 use std::path::{Path, PathBuf};
 

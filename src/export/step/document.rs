@@ -61,6 +61,8 @@ pub enum Content {
     Nodes(Vec<Node>),
     /// Shapes, by their index in [`Boundary::shapes`].
     Shapes(Vec<usize>),
+    /// Whole curves, by their index in [`Boundary::curves`], that bound nothing.
+    Curves(Vec<usize>),
 }
 
 /// Whether the tree names what there is.
@@ -77,6 +79,14 @@ pub(super) fn check(node: &Node, boundary: &Boundary) -> Result<(), ExportError>
             let count = boundary.shapes.len();
             match shapes.iter().find(|shape| **shape >= count) {
                 Some(shape) => wrong(format!("names shape {shape}, but there are {count}")),
+                None => Ok(()),
+            }
+        }
+        Content::Curves(curves) if curves.is_empty() => wrong("has no curves".to_owned()),
+        Content::Curves(curves) => {
+            let count = boundary.curves.len();
+            match curves.iter().find(|curve| **curve >= count) {
+                Some(curve) => wrong(format!("names curve {curve}, but there are {count}")),
                 None => Ok(()),
             }
         }

@@ -161,7 +161,8 @@ fn between(curve: &Path<3>, range: [f64; 2]) -> Option<Curve> {
     Some(own)
 }
 
-fn path(curve: &Curve) -> Path<3> {
+/// A spline as the kernel spells it.
+pub(super) fn path(curve: &Curve) -> Path<3> {
     Path::BSpline {
         degree: curve.degree(),
         knots: curve.knots().as_slice().to_vec(),

@@ -25,6 +25,7 @@ mod products;
 mod shapes;
 mod topology;
 mod tree;
+mod wires;
 
 use std::path::Path;
 
@@ -32,11 +33,13 @@ use self::tree::{Tree, color, facies_of, group, labelled};
 use super::ExportError;
 use super::report::solid_names;
 use super::text::{ascii, one_line};
+use super::wells::entries::WellEntry;
 use crate::assembly::kernel::{self, BridgeError};
 use crate::assembly::splines::EXACT;
 use crate::assembly::{self, Assembly};
 use crate::features::body::{Body, Role};
 use crate::model::realisation::Realisation;
+use crate::model::wells::spec::WellSpec;
 use crate::model::{Model, labels};
 
 pub use self::document::{Content, Document, Node, Protocol};
@@ -163,6 +166,25 @@ pub fn write_surfaces(
     let root = labelled(group(ascii(&model.name), nodes), Some(&model.name));
     let mut document = document(model, protocol, root);
     let mut boundary = kernel::boundary(&faces).map_err(|error| kernel_error(&error))?;
+    document.accuracy = far::settle(&mut boundary, EXACT);
+    save(&self::assembly(&document, &boundary)?, path)
+}
+
+/// Writes wells as curves that are split where they pass from one volume to another, by what a report says of them.
+pub fn write_wells(
+    path: &Path,
+    model: &Model,
+    realisation: &Realisation,
+    wells: &[(&WellSpec, &WellEntry)],
+    protocol: Protocol,
+) -> Result<(), ExportError> {
+    if wells.is_empty() {
+        return Err(ExportError::Step("the model has no wells".to_owned()));
+    }
+    let (nodes, mut boundary) = wires::wires(model, realisation, wells);
+    let name = group(ascii(&format!("wells of {}", model.name)), nodes);
+    let root = labelled(name, Some(&format!("wells of {}", model.name)));
+    let mut document = document(model, protocol, root);
     document.accuracy = far::settle(&mut boundary, EXACT);
     save(&self::assembly(&document, &boundary)?, path)
 }

@@ -1,7 +1,7 @@
 //! Products and their tree.
 //!
 //! The entities are those that the kernel writes, which every reader takes: one PRODUCT per node, placed in its parent by a
-//! `NEXT_ASSEMBLY_USAGE_OCCURRENCE`; its solids, or its faces if it has none, are on layers and coloured themselves. Each
+//! `NEXT_ASSEMBLY_USAGE_OCCURRENCE`; its solids, its faces if it has none, or its curves are on layers and coloured themselves. Each
 //! representation has a context of its own, as the placement of one in another demands; all have the same units.
 
 use std::collections::HashMap;
@@ -50,6 +50,29 @@ impl Items {
                 self.styled.extend(faces);
             }
         }
+    }
+}
+
+/// Whole curves as a set of them, which is what every reader takes for wires.
+fn curve_set<'a>(
+    to: &mut Draft<'a>,
+    geometry: &mut Geometry<'a>,
+    name: &str,
+    curves: &[usize],
+) -> Items {
+    let curves: Vec<Id> = curves
+        .iter()
+        .map(|curve| geometry.curve(to, *curve))
+        .collect();
+    let set = to.add(format_args!(
+        "GEOMETRIC_CURVE_SET({},{})",
+        Quoted(name),
+        List(&curves)
+    ));
+    Items {
+        roots: vec![set],
+        styled: vec![set],
+        has_solid: false,
     }
 }
 
@@ -204,11 +227,12 @@ impl<'a, 'd> Products<'a, 'd> {
                 } else {
                     "MANIFOLD_SURFACE_SHAPE_REPRESENTATION"
                 };
-                let product = self.product(node, kind, items.roots);
-                let layer = node.layer.as_deref();
-                self.presentation
-                    .add(items.styled, layer, node.color, product.context);
-                product
+                self.shown(node, kind, items)
+            }
+            Content::Curves(curves) => {
+                let items = curve_set(self.to, geometry, node.shown(), curves);
+                let kind = "GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION";
+                self.shown(node, kind, items)
             }
             Content::Nodes(nodes) => {
                 let places: Vec<Id> = nodes
@@ -225,6 +249,15 @@ impl<'a, 'd> Products<'a, 'd> {
                 parent
             }
         }
+    }
+
+    /// A product with its layer and its colour.
+    fn shown(&mut self, node: &Node, kind: &str, items: Items) -> Product {
+        let product = self.product(node, kind, items.roots);
+        let layer = node.layer.as_deref();
+        self.presentation
+            .add(items.styled, layer, node.color, product.context);
+        product
     }
 
     /// Products have a name each, which is their identifier, and a label, which programs show; identifiers of those that share a

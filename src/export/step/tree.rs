@@ -154,7 +154,7 @@ pub(super) fn color(facies: &Facies) -> [u8; 3] {
 }
 
 /// `facies=sand; net=1; porosity=0.24; permeability_mD=600,600,120`; the six numbers of a tensor are xx, yy, zz, xy, yz, xz.
-fn description(facies: &Facies, rock: &VolumeProperties) -> String {
+pub(super) fn description(facies: &Facies, rock: &VolumeProperties) -> String {
     let mut words = vec![format!("facies={}", ascii(&facies.name))];
     for (name, property) in &rock.values {
         let unit = if name == "permeability" { "_mD" } else { "" };

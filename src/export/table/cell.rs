@@ -72,3 +72,13 @@ impl Cell {
         }
     }
 }
+
+/// The names of columns.
+pub(super) fn columns(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+/// Words.
+pub(super) fn text(text: &str) -> Cell {
+    Cell::Text(text.to_owned())
+}

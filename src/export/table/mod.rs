@@ -5,9 +5,11 @@
 mod cell;
 mod csv;
 mod sheets;
+mod wells;
 mod xlsx;
 
 pub use self::csv::csv;
 pub use cell::{Cell, Sheet};
 pub use sheets::{VOLUMES, sheets, volumes};
+pub use wells::{WELLS, wells};
 pub use xlsx::xlsx;

@@ -4,15 +4,16 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use super::cell::{Cell, Sheet};
+use super::cell::{Cell, Sheet, columns, text};
+use super::wells::{tops, wells};
 use crate::export::report::{Report, TotalsEntry, VolumeEntry};
 
 /// The name of the table of volumes.
 pub const VOLUMES: &str = "volumes";
 
-/// All tables.
+/// All tables; those of wells and of tops where there are any.
 pub fn sheets(report: &Report) -> Vec<Sheet> {
-    vec![
+    let mut all = vec![
         volumes(report),
         facies(report),
         units(report),
@@ -20,15 +21,14 @@ pub fn sheets(report: &Report) -> Vec<Sheet> {
         measures(report),
         neighbours(report),
         drawn(report),
-    ]
-}
-
-fn columns(names: &[&str]) -> Vec<String> {
-    names.iter().map(|name| (*name).to_owned()).collect()
-}
-
-fn text(text: &str) -> Cell {
-    Cell::Text(text.to_owned())
+    ];
+    if !report.wells.is_empty() {
+        all.push(wells(&report.wells));
+    }
+    if !report.tops.is_empty() {
+        all.push(tops(report));
+    }
+    all
 }
 
 /// A line for each volume.

@@ -15,6 +15,10 @@ use crate::model::wells::spec::WellSpec;
 /// The longest step along the hole (m).
 pub const STEP: f64 = 2.0;
 
+/// Coordinates are metres, and z points up.
+pub(super) const COORDINATES: &str = "GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\nAXIS_UNIT \"m\" \"m\" \"m\"\n\
+    ZPOSITIVE Elevation\nEND_ORIGINAL_COORDINATE_SYSTEM\n";
+
 /// A well as a file.
 pub struct GocadWell<'a> {
     /// The model.
@@ -31,29 +35,17 @@ impl GocadWell<'_> {
     /// The file.
     pub fn text(&self) -> String {
         let well = &self.spec.well;
-        let (first, last) = well.range();
-        let origin = DVec3::from_array(self.model.origin);
-        let place = |md: f64| {
-            let p = well.point(md) + origin;
-            format!("{:.6} {:.6} {:.6}", p.x, p.y, p.z)
-        };
+        let first = self.place(well.range().0);
         let mut depths: Vec<f64> = well.depths().collect();
         depths.extend(self.log.crossings.iter().map(|one| one.md));
         depths.sort_by(f64::total_cmp);
         depths.dedup();
         let mut out = String::from("GOCAD Well 1\nHEADER {\n");
         let _ = writeln!(out, "name:{}\n}}", one_word(&self.spec.name));
-        out.push_str("GOCAD_ORIGINAL_COORDINATE_SYSTEM\nNAME Default\nAXIS_NAME \"X\" \"Y\" \"Z\"\nAXIS_UNIT \"m\" \"m\" \"m\"\n");
-        out.push_str("ZPOSITIVE Elevation\nEND_ORIGINAL_COORDINATE_SYSTEM\n");
-        let _ = writeln!(out, "WREF {}", place(first));
-        let _ = writeln!(out, "VRTX {}", place(first));
-        for pair in depths.windows(2) {
-            let mut from = pair[0];
-            while pair[1] - from > STEP {
-                from += STEP;
-                let _ = writeln!(out, "VRTX {}", place(from));
-            }
-            let _ = writeln!(out, "VRTX {}", place(pair[1].min(last)));
+        out.push_str(COORDINATES);
+        let _ = writeln!(out, "WREF {first}");
+        for md in steps(&depths) {
+            let _ = writeln!(out, "VRTX {}", self.place(md));
         }
         for one in &self.log.crossings {
             let name = one.to.map_or("outside", |volume| {
@@ -64,10 +56,30 @@ impl GocadWell<'_> {
         out.push_str("END\n");
         out
     }
+
+    /// The place at a measured depth, in the world.
+    pub(super) fn place(&self, md: f64) -> String {
+        let p = self.spec.well.point(md) + DVec3::from_array(self.model.origin);
+        format!("{:.6} {:.6} {:.6}", p.x, p.y, p.z)
+    }
+}
+
+/// These depths, and more between them, so that no two are more than a step apart.
+pub(super) fn steps(depths: &[f64]) -> Vec<f64> {
+    let mut all: Vec<f64> = depths.iter().take(1).copied().collect();
+    for pair in depths.windows(2) {
+        let mut from = pair[0];
+        while pair[1] - from > STEP {
+            from += STEP;
+            all.push(from);
+        }
+        all.push(pair[1]);
+    }
+    all
 }
 
 /// A name without blanks, which would end it.
-fn one_word(name: &str) -> String {
+pub(super) fn one_word(name: &str) -> String {
     deunicode::deunicode(name)
         .chars()
         .map(|c| if c.is_ascii_graphic() { c } else { '_' })

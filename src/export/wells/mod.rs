@@ -1,6 +1,6 @@
-//! Wells in results: what they pass through as entries of reports, as tables and as logs.
+//! Wells in results: what they pass through as entries of reports and as logs, and their paths.
 
 pub mod entries;
 pub mod gocad;
 pub mod las;
-pub mod table;
+pub mod pline;

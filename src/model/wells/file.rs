@@ -56,7 +56,7 @@ pub(crate) struct WellFile {
     pub(crate) laterals: Option<Field<Any>>,
 }
 
-/// A lateral or side-track of a well; units, datum and origin are its mother's.
+/// A lateral or side-track of a well, or of another one; units, datum and origin are its mother's.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Lateral")]
@@ -82,6 +82,9 @@ pub(crate) struct LateralFile {
     pub(crate) completions: Option<Field<Any>>,
     /// Diameter of the hole in metres.
     pub(crate) diameter: Option<Field<f64>>,
+    /// Laterals of its own.
+    #[schemars(with = "Option<Vec<Self>>")]
+    pub(crate) laterals: Option<Field<Any>>,
 }
 
 /// One station: measured depth with directions, a step, or a point. All of a survey are of one kind.

@@ -4,6 +4,7 @@
 //! follows from a realisation and its point evaluator.
 
 pub(crate) mod file;
+mod laterals;
 pub mod log;
 pub mod misfit;
 mod read;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3Swizzles};
 
-use super::file::{LateralFile, PATHS, SPACINGS, WellFile};
+use super::file::{PATHS, SPACINGS, WellFile};
 use super::spec::{DepthUnit, METRE, WellSpec};
 use super::stations::{Frame, Start};
 use super::survey::Written;
@@ -23,26 +23,6 @@ use crate::nurbs::interpolate::Parametrization;
 const SHARP: f64 = 10.0;
 /// Paths that differ from measured depth by more than this part of it are worth a note.
 const MISFIT: f64 = 1e-3;
-
-/// What a lateral has of its mother.
-struct Mother<'a> {
-    index: usize,
-    spec: &'a WellSpec,
-    frame: Frame,
-}
-
-/// What is read of a lateral before its mother has a path.
-struct Sidetrack {
-    node: NodeId,
-    what: String,
-    id: String,
-    at: (NodeId, f64),
-    survey: Written,
-    path: Option<Field<String>>,
-    parametrization: Option<Field<String>>,
-    completions: Vec<(NodeId, [f64; 2])>,
-    diameter: Option<f64>,
-}
 
 impl Checker<'_> {
     /// The wells of a model.
@@ -73,7 +53,7 @@ impl Checker<'_> {
         (self.reader.found() == before).then_some(wells)
     }
 
-    fn not_a_list(&self, node: NodeId, what: &str, example: &str) {
+    pub(super) fn not_a_list(&self, node: NodeId, what: &str, example: &str) {
         let found = self.reader.tree.describe(node);
         self.reader.wrong(
             node,
@@ -83,7 +63,7 @@ impl Checker<'_> {
     }
 
     /// An id that no other well has.
-    fn well_id(
+    pub(super) fn well_id(
         &self,
         field: Field<String>,
         table: NodeId,
@@ -196,156 +176,16 @@ impl Checker<'_> {
             source: survey.source,
             place: self.place(node),
         };
-        self.with_laterals(node, spec, completions, (sidetracks, frame), wells);
-    }
-
-    /// Adds a well, and then its laterals: they leave a path that has all their junctions.
-    fn with_laterals(
-        &mut self,
-        node: NodeId,
-        mut spec: WellSpec,
-        completions: Vec<(NodeId, [f64; 2])>,
-        (sidetracks, frame): (Vec<Sidetrack>, Frame),
-        wells: &mut Vec<WellSpec>,
-    ) {
-        let what = format!("well {}", quoted(&spec.name));
-        spec.completions = self.within(completions, &spec.well, &what);
-        self.note_quality(node, &spec);
-        let mut joined = Vec::with_capacity(sidetracks.len());
-        for sidetrack in sidetracks {
-            let (at, md) = sidetrack.at;
-            match spec.well.with_junction(md * frame.unit) {
-                Ok(well) => {
-                    spec.well = well;
-                    joined.push(sidetrack);
-                }
-                Err(error) => {
-                    let message = format!("{} cannot leave {what} there: {error}", sidetrack.what);
-                    self.reader.wrong(
-                        at,
-                        message,
-                        "write a measured depth of the well that it leaves, in the well's unit",
-                    );
-                }
-            }
-        }
-        let index = wells.len();
-        wells.push(spec.clone());
-        let mother = Mother {
-            index,
-            spec: &spec,
-            frame,
-        };
-        for sidetrack in joined {
-            let lateral = self.lateral(sidetrack, &mother);
-            wells.extend(lateral);
-        }
-    }
-
-    fn sidetracks(
-        &mut self,
-        field: Option<Field<Any>>,
-        unit: DepthUnit,
-        of: &str,
-    ) -> Vec<Sidetrack> {
-        let Some((node, Any)) = field.and_then(Field::good) else {
-            return Vec::new();
-        };
-        let Value::List(nodes) = self.reader.tree.value(node) else {
-            self.not_a_list(
-                node,
-                &format!("laterals for {of}"),
-                "{ id = \"north\", at_md = 900, survey = [ … ] }",
-            );
-            return Vec::new();
-        };
-        let mut names = BTreeMap::new();
-        let mut all = Vec::with_capacity(nodes.len());
-        for node in nodes.clone() {
-            let Some(file) = self.reader.table::<LateralFile>(node) else {
-                continue;
-            };
-            let id = self.well_id(file.id, node, "lateral", &mut names);
-            let what = id.as_ref().map_or_else(
-                || format!("this lateral of {of}"),
-                |id| format!("lateral {} of {of}", quoted(id)),
-            );
-            self.reader.close(node, &what);
-            let at = self
-                .reader
-                .need(file.at_md, node, &what, "at_md", "at_md = 900");
-            let completions = self.completions(file.completions, unit, &what);
-            let diameter = self.diameter(file.diameter, &what);
-            let survey = self
-                .reader
-                .need(
-                    file.survey,
-                    node,
-                    &what,
-                    "survey",
-                    "survey = [{ md = 930, inc_deg = 10, azi_deg = 45 }]",
-                )
-                .and_then(|(at, Any)| self.written_survey(at, &format!("the survey of {what}")));
-            if let (Some(id), Some(at), Some(survey)) = (id, at, survey) {
-                all.push(Sidetrack {
-                    node,
-                    what,
-                    id,
-                    at,
-                    survey,
-                    path: file.path,
-                    parametrization: file.parametrization,
-                    completions,
-                    diameter,
-                });
-            }
-        }
-        all
-    }
-
-    fn lateral(&mut self, sidetrack: Sidetrack, mother: &Mother<'_>) -> Option<WellSpec> {
-        let Sidetrack {
-            node,
-            what,
-            id,
-            at: (_, at_md),
-            survey,
-            path,
-            parametrization,
-            completions,
-            diameter,
-        } = sidetrack;
-        let spec = mother.spec;
-        let path = self.path(path, parametrization, spec.path, &what);
-        let name = format!("the survey of {what}");
-        let md = at_md * mother.frame.unit;
-        let (place, tangent) = (spec.well.point(md), spec.well.tangent(md));
-        let stations = self.stations(
-            &survey,
-            mother.frame,
-            Start::Junction(md, place, tangent),
-            &name,
-        )?;
-        let made = Well::lateral(&spec.well, md, &stations, path?);
-        let well = self.made(made, &survey, &what)?;
-        let completions = self.within(completions, &well, &what);
-        let lateral = WellSpec {
-            name: format!("{}/{id}", spec.name),
-            mother: Some(mother.index),
-            well,
-            path: path?,
-            completions,
-            diameter: diameter.or(spec.diameter),
-            source: survey.source,
-            place: self.place(node),
-            ..spec.clone()
-        };
-        self.note_quality(node, &lateral);
-        Some(lateral)
+        self.with_laterals((node, &what), spec, completions, (sidetracks, frame), wells);
     }
 
     /// A path, or a defect of its survey.
-    fn made(&self, made: Result<Well, WellError>, survey: &Written, what: &str) -> Option<Well> {
+    pub(super) fn made(
+        &self,
+        made: Result<Well, WellError>,
+        survey: &Written,
+        what: &str,
+    ) -> Option<Well> {
         let error = match made {
             Ok(well) => return Some(well),
             Err(error) => error,
@@ -373,7 +213,7 @@ impl Checker<'_> {
     }
 
     /// How stations are joined.
-    fn path(
+    pub(super) fn path(
         &self,
         path: Option<Field<String>>,
         spacing: Option<Field<String>>,
@@ -423,7 +263,7 @@ impl Checker<'_> {
     }
 
     /// Where a well is open, in metres.
-    fn completions(
+    pub(super) fn completions(
         &self,
         field: Option<Field<Any>>,
         unit: DepthUnit,
@@ -469,7 +309,7 @@ impl Checker<'_> {
     }
 
     /// Completions that lie on a well, in order; those that overlap are one.
-    fn within(
+    pub(super) fn within(
         &self,
         completions: Vec<(NodeId, [f64; 2])>,
         well: &Well,
@@ -500,7 +340,7 @@ impl Checker<'_> {
         joined
     }
 
-    fn diameter(&self, field: Option<Field<f64>>, what: &str) -> Option<f64> {
+    pub(super) fn diameter(&self, field: Option<Field<f64>>, what: &str) -> Option<f64> {
         let (node, diameter) = field?.good()?;
         if diameter > 0.0 {
             return Some(diameter);
@@ -512,7 +352,7 @@ impl Checker<'_> {
     }
 
     /// What a survey that is probably wrong shows.
-    fn note_quality(&mut self, node: NodeId, spec: &WellSpec) {
+    pub(super) fn note_quality(&mut self, node: NodeId, spec: &WellSpec) {
         let quality = spec.well.quality();
         let name = quoted(&spec.name);
         if quality.dogleg_deg_30m > SHARP {

@@ -26,6 +26,8 @@ use bed::{Bed, bound_nodes, nodes};
 use deciding::{Deciding, Layer};
 use points::Points;
 
+use glam::Vec3Swizzles;
+
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::model::realisation::RealisationError;
 use crate::model::selection::Selection;
@@ -65,7 +67,9 @@ impl Strata {
                     thickness,
                 }) => {
                     let swing = swings.get(below).copied().unwrap_or(0.0);
-                    let bed = Bed::of(horizon, thickness, [least, least.max(2.0 * swing)]);
+                    let (low, high) = model.domain.corners();
+                    let plan = [low.xy(), high.xy()];
+                    let bed = Bed::of(horizon, thickness, [least, least.max(2.0 * swing)], plan);
                     let bed = bed.map_err(|error| impossible(id, &error))?;
                     let reference = &bed.reference;
                     let own = given

@@ -22,6 +22,7 @@ pub(crate) fn horizon(
             HorizonSurface::Level(thickness) => {
                 Horizon::flat(draws.quantity(thickness, "surface.thickness")?).map_err(wrong)
             }
+            HorizonSurface::File(file) => Ok(file.fitted.horizon.clone()),
             measured => measured_heights(measured).map_err(wrong),
         },
         HorizonSurface::Level(level) => {

@@ -1,5 +1,7 @@
 //! What became of a file of heights.
 
+use std::fmt::Write as _;
+
 use glam::DVec2;
 
 use crate::features::coverage::Coverage;
@@ -37,7 +39,7 @@ impl FileSurface {
         }
     }
 
-    /// What became of it, in words.
+    /// What became of it, in words; of holes, and of how far it goes on beyond its data, there are notes.
     pub fn described(&self) -> String {
         let [nx, ny] = self.fitted.counts;
         let misfit = self.fitted.misfit;
@@ -52,14 +54,12 @@ impl FileSurface {
             misfit.most,
             misfit.rms,
         );
-        if self.coverage.has_holes() {
-            text += "; filled up to ";
-            text += &tidy(self.coverage.filled);
-            text += " from data";
-        }
-        if self.coverage.extrapolated >= 0.5 {
-            text += "; extrapolated by ";
-            text += &tidy(self.coverage.extrapolated);
+        if self.coverage.extrapolated >= 0.5 && !self.coverage.reaches_beyond() {
+            let _ = write!(
+                text,
+                "; extrapolated by {:.0} m",
+                self.coverage.extrapolated
+            );
         }
         text
     }
@@ -68,9 +68,4 @@ impl FileSurface {
 /// The corners of a plan.
 pub(super) fn plan([west, east]: [f64; 2], [south, north]: [f64; 2]) -> [DVec2; 2] {
     [DVec2::new(west, south), DVec2::new(east, north)]
-}
-
-/// A distance in the plan, as people read it.
-fn tidy(distance: f64) -> String {
-    format!("{distance:.0} m")
 }

@@ -1,5 +1,6 @@
 //! Surfaces given by their thickness above an older horizon.
 
+use super::file::{FromFile, Measure};
 use super::{HorizonSurface, ThicknessFile};
 use crate::model::checker::{Checker, Extent};
 use crate::model::draft::Family;
@@ -93,25 +94,46 @@ impl Checker<'_> {
         None
     }
 
-    /// A number, a grid or points.
+    /// A number, a grid, points or a file.
     fn thickness(&mut self, node: NodeId, what: &str, extent: Extent) -> Option<HorizonSurface> {
         let what = format!("the thickness below {what}");
         let has = |key: &str| self.reader.tree.entry(node, key).is_some();
-        if !(has("grid") || has("points")) {
+        if !(has("grid") || has("points") || has("file")) {
             let thickness = quantity(&self.reader, node, &what, NOT_NEGATIVE)?;
             return Some(HorizonSurface::Level(thickness));
         }
         let file: ThicknessFile = self.reader.table(node)?;
+        let from_file: FromFile = self.reader.table(node)?;
         self.reader.close(node, &what);
-        if let (Some(_), Some(_)) = (&file.grid, &file.points) {
+        let forms: Vec<&str> = [
+            ("grid", file.grid.is_some()),
+            ("points", file.points.is_some()),
+            ("file", from_file.file.is_some()),
+        ]
+        .iter()
+        .filter(|(_, given)| *given)
+        .map(|(name, _)| *name)
+        .collect();
+        if forms.len() > 1 {
             self.reader.wrong(
                 node,
-                format!("{what} has 2 forms: grid, points"),
+                format!("{what} has {} forms: {}", forms.len(), forms.join(", ")),
                 "give one of them",
             );
             return None;
         }
+        if let Some((at, key)) = from_file.stray() {
+            self.reader.wrong(
+                at,
+                format!("{what} has a `{key}` without `file`"),
+                "remove it: it goes with thicknesses from a file alone",
+            );
+        }
         let tolerance = file.tolerance;
+        if from_file.file.is_some() {
+            let as_what = (what.as_str(), Measure::Thickness, extent);
+            return self.surface_of_file(node, from_file, tolerance, as_what);
+        }
         let grid = self.form(file.grid, |checker, at| checker.grid(at, &what, extent));
         let points = self.form(file.points, |checker, at| {
             checker.scattered(node, at, tolerance, (&what, extent))

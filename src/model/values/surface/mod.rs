@@ -66,9 +66,20 @@ pub enum HorizonSurface {
     Above {
         /// Index of the feature that is the other horizon; an older one.
         horizon: usize,
-        /// The thickness over the plan: level, a grid or points, none of them below 0.
+        /// The thickness over the plan: level, a grid, points or a file, none of them below 0.
         thickness: Box<HorizonSurface>,
     },
+}
+
+impl HorizonSurface {
+    /// The file that it comes from, or its thickness.
+    pub fn file(&self) -> Option<&FileSurface> {
+        match self {
+            Self::File(file) => Some(file),
+            Self::Above { thickness, .. } => thickness.file(),
+            _ => None,
+        }
+    }
 }
 
 /// The table of a surface: one of `level`, `dipping`, `grid`, `points`, `net`, `file` (which has more keys), or `above` with
@@ -85,7 +96,7 @@ pub(crate) struct SurfaceFile {
     pub(crate) tolerance: Option<Field<f64>>,
 }
 
-/// The table of a thickness: one of `grid`, `points`.
+/// The table of a thickness: one of `grid`, `points`, `file` (which has more keys).
 #[derive(Deserialize)]
 pub(crate) struct ThicknessFile {
     pub(crate) grid: Option<Field<Any>>,

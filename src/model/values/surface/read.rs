@@ -1,6 +1,6 @@
 //! Surfaces over the whole domain: level, dipping, a grid of heights, scattered points, a control net.
 
-use super::file::FromFile;
+use super::file::{FromFile, Measure};
 use super::heights::{ABSURD, NO_DATA};
 use super::{DippingFile, HorizonSurface, NET_TOLERANCE, SurfaceFile};
 use crate::model::checker::{Checker, Extent, Reported};
@@ -97,7 +97,8 @@ impl Checker<'_> {
             None
         };
         let measured = if forms == ["file"] {
-            self.surface_of_file(node, from_file, file_tolerance, (what, extent))
+            let as_what = (what, Measure::Elevation, extent);
+            self.surface_of_file(node, from_file, file_tolerance, as_what)
         } else {
             None
         };

@@ -24,18 +24,22 @@ impl JsonSchema for HorizonSurface {
 /// A horizon's surface: as that of the domain's base and top, or by its thickness above another horizon.
 pub(crate) fn horizon_surface(generator: &mut SchemaGenerator) -> Schema {
     let number = generator.subschema_for::<Quantity>();
+    let mut keys = heights(
+        generator,
+        [
+            "Thicknesses at the nodes of a regular grid.",
+            "Scattered points [x, y, thickness]",
+        ],
+    );
+    // A thickness points nowhere.
+    keys.extend(of_file().into_iter().filter(|(key, _)| key != "positive"));
     let mut thickness = forms(
-        "How far above it: a number, a grid of thicknesses, or scattered points [x, y, thickness]; in metres, not below 0.",
-        &heights(
-            generator,
-            [
-                "Thicknesses at the nodes of a regular grid.",
-                "Scattered points [x, y, thickness]",
-            ],
-        ),
-        &[("grid", &[]), ("points", &["tolerance"])],
+        "How far above it: a number, a grid of thicknesses, scattered points [x, y, thickness], or a file of thicknesses; in metres, not below 0.",
+        &keys,
+        &[("grid", &[]), ("points", &[]), ("file", &[])],
     );
     thickness.insert("type".to_owned(), json!("object"));
+    go_with_file(&mut thickness, &["points", "file"]);
     let description = thickness.remove("description");
     let thickness = json!({ "description": description, "anyOf": [number, thickness] });
     let above = json!({ "description": "The id of an older horizon above which it lies.", "type": "string" });
@@ -118,6 +122,27 @@ fn of_file() -> Map<String, Value> {
     }))
 }
 
+/// Says which keys go with a file, and that `tolerance` goes with these forms.
+fn go_with_file(table: &mut Map<String, Value>, approximated: &[&str]) {
+    let mut together = table
+        .remove("dependentRequired")
+        .map_or_else(Map::new, object);
+    together.insert("points".to_owned(), json!(["tolerance"]));
+    for key in of_file().keys().filter(|key| *key != "file") {
+        together.insert(key.clone(), json!(["file"]));
+    }
+    table.insert("dependentRequired".to_owned(), Value::Object(together));
+    let has = |key: &str| json!({ "required": [key] });
+    let approximated: Vec<Value> = approximated.iter().map(|form| has(form)).collect();
+    table.insert(
+        "allOf".to_owned(),
+        json!([
+            { "if": has("tolerance"), "then": { "anyOf": approximated } },
+            { "if": has("file"), "then": { "oneOf": [has("tolerance"), has("smooth")] } },
+        ]),
+    );
+}
+
 /// A surface over the whole domain, with what may be given besides.
 fn surface(generator: &mut SchemaGenerator, isochore: Map<String, Value>) -> Schema {
     let level = about(
@@ -157,22 +182,7 @@ fn surface(generator: &mut SchemaGenerator, isochore: Map<String, Value>) -> Sch
         &keys,
         &telling,
     );
-    let mut together = table
-        .remove("dependentRequired")
-        .map_or_else(Map::new, object);
-    together.insert("points".to_owned(), json!(["tolerance"]));
-    for key in of_file().keys().filter(|key| *key != "file") {
-        together.insert(key.clone(), json!(["file"]));
-    }
-    table.insert("dependentRequired".to_owned(), Value::Object(together));
-    let has = |key: &str| json!({ "required": [key] });
-    table.insert(
-        "allOf".to_owned(),
-        json!([
-            { "if": has("tolerance"), "then": { "anyOf": [has("points"), has("net"), has("file")] } },
-            { "if": has("file"), "then": { "oneOf": [has("tolerance"), has("smooth")] } },
-        ]),
-    );
+    go_with_file(&mut table, &["points", "net", "file"]);
     table.insert("type".to_owned(), json!("object"));
     let examples = json!([
         { "level": -20 },

@@ -1,7 +1,8 @@
 //! Beds given by their thickness, and the nodes at which data are known.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
+use crate::features::fitted::Fitted;
 use crate::features::horizon::{Horizon, HorizonError};
 use crate::features::pinch_out::{self, Absence, Nodes};
 use crate::model::spec::Feature;
@@ -25,14 +26,23 @@ impl Bed {
         drawn: Horizon,
         spec: &HorizonSurface,
         [least, depth]: [f64; 2],
+        plan: [DVec2; 2],
     ) -> Result<Self, HorizonError> {
+        let beside = |continued: Horizon| Self {
+            continued,
+            reference: drawn.clone(),
+            swing: 0.0,
+            none: None,
+        };
         match (spec, nodes(spec, &[])) {
-            (HorizonSurface::Points { points, tolerance }, _) => Ok(Self {
-                continued: pinch_out::continued_points(points, *tolerance, least, &drawn)?,
-                reference: drawn,
-                swing: 0.0,
-                none: None,
-            }),
+            (HorizonSurface::Points { points, tolerance }, _) => {
+                let fit = |points: &[DVec3]| Horizon::points(points, *tolerance);
+                pinch_out::continued_points(points, least, &drawn, &fit).map(beside)
+            }
+            (HorizonSurface::File(file), _) => {
+                let fit = |points: &[DVec3]| Ok(Fitted::new(points, plan, file.goal)?.horizon);
+                pinch_out::continued_points(&file.points, least, &drawn, &fit).map(beside)
+            }
             (_, Some(nodes)) => {
                 let thickness = nodes.sample(|at| drawn.height(at.x, at.y));
                 let absence = Absence::at_nodes(&thickness, nodes.counts, least);
