@@ -88,14 +88,17 @@ fn an_ensemble_that_is_killed_at_twenty_random_moments_comes_to_the_same_bytes()
     for kill_number in 0..KILLS {
         let mut parent = start(&sandbox, &killed);
         let id = parent.id();
-        // So that the last ones come while tables and plots are made.
+        // On the way to the end, where tables and plots are made.
         let moment = Stream::new(1, "test", "killed", "moment", kill_number).unit();
         std::thread::sleep(undisturbed.mul_f64(moment / 8.0));
         let workers = children(id);
         at_once = at_once.max(workers.len());
-        alive += u32::from(parent.try_wait().unwrap().is_none());
-        kill(id);
-        parent.wait().unwrap();
+        let is_alive = parent.try_wait().unwrap().is_none();
+        alive += u32::from(is_alive);
+        if is_alive {
+            kill(id);
+            parent.wait().unwrap();
+        }
         let mourning = Instant::now();
         while workers.iter().any(|id| is_worker(*id)) {
             assert!(
@@ -108,9 +111,15 @@ fn an_ensemble_that_is_killed_at_twenty_random_moments_comes_to_the_same_bytes()
         if sandbox.path("killed").exists() {
             assert_part_of(&files(&sandbox, "killed"), &whole);
         }
+        if !is_alive {
+            // It came to its end, and begins anew.
+            std::fs::remove_dir_all(sandbox.path("killed")).unwrap();
+        }
     }
     assert!(alive >= 10, "only {alive} were still at work when killed");
     assert_eq!(at_once, 2, "as many work at a time as were asked for");
+    sandbox.answer(&killed);
+    assert_same(&whole, &files(&sandbox, "killed"));
     // One that was finished is damaged, as by a copy that ended half-way.
     let first = sandbox.path("killed/realisations/0001/report.json");
     let bytes = std::fs::read(&first).unwrap();
