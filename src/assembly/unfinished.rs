@@ -79,9 +79,8 @@ pub fn clear(place: &Path, prefix: &str) -> io::Result<Found> {
         match state(&entry.path()) {
             State::InUse => found.in_use += 1,
             State::Abandoned(lock) => {
-                let removed = fs::remove_dir_all(entry.path()).is_ok();
+                found.abandoned += usize::from(remove(&entry.path()).is_ok());
                 drop(lock);
-                found.abandoned += usize::from(removed);
             }
             // Killed before it held a lock; if it is not empty this does nothing.
             State::Unlocked => {
@@ -90,6 +89,19 @@ pub fn clear(place: &Path, prefix: &str) -> io::Result<Found> {
         }
     }
     Ok(found)
+}
+
+/// Removes a folder, its lock last: without it, what is left by one who is killed here would be nobody's.
+fn remove(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_type()?.is_dir() {
+            fs::remove_dir_all(entry.path())?;
+        } else if entry.file_name() != LOCK {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    fs::remove_dir_all(folder)
 }
 
 enum State {

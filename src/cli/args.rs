@@ -6,7 +6,7 @@ use crate::model::Stratum;
 use crate::model::selection::Selection;
 
 /// The model and what is changed in it for this run.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(super) struct ModelArgs {
     /// The model file (TOML, or JSON if its name ends in .json); - reads it from standard input.
     #[arg(value_name = "MODEL")]

@@ -1,5 +1,6 @@
 //! `clinothem build`: solids, report, proof.
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use super::args::{ModelArgs, finite};
@@ -46,6 +47,11 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    make(args).map(drop)
+}
+
+/// The same; returns what was built, and the folder with its files.
+pub(super) fn make(args: &Args) -> Result<(Built, PathBuf), Failure> {
     let started = Instant::now();
     if args.least_area < 0.0 {
         return Err(Failure::Wrong(format!(
@@ -92,12 +98,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let json = report
             .to_json()
             .map_err(|error| Failure::Surroundings(error.to_string()))?;
-        print::out(json.trim_end())
-    } else if args.engine.quiet {
-        Ok(())
-    } else {
-        print::out(summary::text(&report, outputs.folder(), &written).trim_end())
+        print::out(json.trim_end())?;
+    } else if !args.engine.quiet {
+        print::out(summary::text(&report, outputs.folder(), &written).trim_end())?;
     }
+    let folder = outputs.folder().to_path_buf();
+    Ok((built, folder))
 }
 
 /// What the model's wells pass through.

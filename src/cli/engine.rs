@@ -11,7 +11,7 @@ use crate::model::realisation::Realisation;
 use crate::model::selection::Selection;
 
 /// How solids are assembled.
-#[derive(Clone, Debug, clap::Args)]
+#[derive(Clone, Debug, Default, clap::Args)]
 pub(super) struct EngineArgs {
     /// What makes the solids. auto takes the partition, and the general fuse where the partition is in doubt.
     #[arg(long, value_enum, default_value_t)]

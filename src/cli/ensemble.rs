@@ -6,17 +6,21 @@ use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use indicatif::ProgressBar;
+use rayon::prelude::*;
 
 use super::engine::{Engine, ProofLevel};
 use super::failure::Failure;
 use super::members::MemberArgs;
 use super::outputs::Format;
+use super::tiles::{self, Picture};
 use super::{interrupt, load, print, progress};
 use crate::ensemble::Member;
 use crate::ensemble::folder::{Folder, FolderError, Manifest, Settled};
 use crate::ensemble::member::digest;
 use crate::ensemble::summary::{self, Summary, Told};
 use crate::ensemble::workers::{self, End, Ended, Job, WorkersError};
+use crate::export::picture::contact::{ContactSheet, Tile};
+use crate::export::picture::{Rgb, Swatch};
 use crate::model::Model;
 
 /// Make many realisations of a model, and say what they are as a whole.
@@ -31,6 +35,7 @@ use crate::model::Model;
   clinothem ensemble case-study.toml --seeds 1..1000 -o thousand --workers 8
   clinothem ensemble case-study.toml -n 200 --latin-hypercube
   clinothem ensemble belt.toml --design design.csv --write tables,step
+  clinothem ensemble case-study.toml -n 40 --contact-sheet section,view
   clinothem ensemble case-study.toml -n 50 --scenario 'all:' --scenario 'no-lags: --without lag'
   clinothem ensemble case-study.toml -n 100 --of facies.channel-sand.volume_m3
 
@@ -48,6 +53,9 @@ pub(super) struct Args {
     /// What each realisation writes beside its tables: formats as of build; tables for nothing else.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "tables")]
     write: Vec<Format>,
+    /// Draw small pictures of each realisation, and sheets of them: contact-section.png, contact-map.png, contact-view.png.
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "PICTURE")]
+    contact_sheet: Vec<Picture>,
     /// The folder for the results; MODEL-ensemble if not given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -118,7 +126,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         _ => Failure::Wrong(error.to_string()),
     })?;
     let kept: Vec<Option<Settled>> = members
-        .iter()
+        .par_iter()
         .map(|member| Some(folder.settled(member, &member.key(&job.common))?.outcome))
         .collect();
     let due: Vec<usize> = (0..members.len())
@@ -241,13 +249,26 @@ fn build_arguments(args: &Args) -> Vec<String> {
         value.map_or_else(String::new, |value| value.get_name().to_owned())
     }
     let formats: Vec<String> = args.write.iter().map(word).collect();
-    vec![
+    let mut arguments = vec![
         format!("--formats={}", formats.join(",")),
         format!("--engine={}", word(&args.engine)),
         format!("--proof={}", word(&args.proof)),
         "--quiet".to_owned(),
         "--force".to_owned(),
-    ]
+    ];
+    if !args.contact_sheet.is_empty() {
+        let pictures: Vec<String> = pictures(args).iter().map(word).collect();
+        arguments.push(format!("--contact-sheet={}", pictures.join(",")));
+    }
+    arguments
+}
+
+/// What contact sheets show, each once.
+fn pictures(args: &Args) -> Vec<Picture> {
+    let mut pictures = args.contact_sheet.clone();
+    pictures.sort_unstable();
+    pictures.dedup();
+    pictures
 }
 
 fn job(args: &Args, manifest: &Manifest, members: usize) -> Result<Job, Failure> {
@@ -296,6 +317,16 @@ fn ends(kept: Vec<Option<Settled>>, ended: &[Ended]) -> Vec<End> {
         .collect()
 }
 
+/// What the report in a realisation's folder says.
+fn told(folder: &Path) -> Result<Told, Failure> {
+    let path = folder.join("report.json");
+    let failed = |error: &std::io::Error| Failure::file("read", &path, error);
+    let bytes = std::fs::read(&path).map_err(|error| failed(&error))?;
+    let report: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| failed(&error.into()))?;
+    Ok(Told::by(&report))
+}
+
 /// Reads the reports and writes what they say together.
 fn summarise(
     args: &Args,
@@ -304,21 +335,19 @@ fn summarise(
     ends: &[End],
     folder: &Folder,
 ) -> Result<Summary, Failure> {
-    let mut all = Vec::new();
-    for (member, end) in members.iter().zip(ends) {
-        let told = match end {
-            End::Settled(Settled::Made) => {
-                let path = folder.of(member).join("report.json");
-                let failed = |error: &std::io::Error| Failure::file("read", &path, error);
-                let bytes = std::fs::read(&path).map_err(|error| failed(&error))?;
-                let report: serde_json::Value =
-                    serde_json::from_slice(&bytes).map_err(|error| failed(&error.into()))?;
-                Some(Told::by(&report))
-            }
-            _ => None,
-        };
-        all.push((member, end, told));
-    }
+    // Of each report the numbers alone are kept; the order is that of the members.
+    let told = |(member, end): (&Member, &End)| match end {
+        End::Settled(Settled::Made) => told(&folder.of(member)).map(Some),
+        _ => Ok(None),
+    };
+    let pairs = members.par_iter().zip(ends);
+    let told: Vec<Option<Told>> = pairs.map(told).collect::<Result<_, Failure>>()?;
+    let all: Vec<_> = members
+        .iter()
+        .zip(ends)
+        .zip(told)
+        .map(|((member, end), told)| (member, end, told))
+        .collect();
     let summary = Summary::new(&model.name, &all, args.of.as_deref())
         .map_err(|error| Failure::Wrong(error.to_string()))?;
     let failed = |error: &dyn std::fmt::Display| Failure::Surroundings(error.to_string());
@@ -335,6 +364,8 @@ fn summarise(
             table.map_err(|error| failed(&error))?.as_bytes(),
         )?;
     }
+    let parquet = summary::parquet(&summary).map_err(|error| failed(&error))?;
+    write(folder, "realisations.parquet", &parquet)?;
     let json = summary.to_json().map_err(|error| failed(&error))?;
     write(folder, "summary.json", json.as_bytes())?;
     let plots = summary::plots(&summary).map_err(|error| failed(&error))?;
@@ -343,12 +374,71 @@ fn summarise(
         let png = plot.png().map_err(|error| failed(&error))?;
         write(folder, &format!("{}.png", plot.name), &png)?;
     }
+    let sheets = contact_sheets(args, model, members, &summary, folder)?;
+    for sheet in &sheets {
+        write(folder, &format!("{}.png", sheet.name), &sheet.png)?;
+    }
     write(
         folder,
         "summary.html",
-        summary::page(&summary, &plots).as_bytes(),
+        summary::page(&summary, &plots, &sheets).as_bytes(),
     )?;
     Ok(summary)
+}
+
+/// A sheet of each kind of small picture, of as many realisations as one can hold.
+fn contact_sheets(
+    args: &Args,
+    model: &Model,
+    members: &[Member],
+    summary: &Summary,
+    folder: &Folder,
+) -> Result<Vec<summary::Sheet>, Failure> {
+    let rows = &summary.table.rows;
+    let result = summary.table.measure(&summary.result);
+    let legend: Vec<Swatch> = model
+        .facies
+        .iter()
+        .map(|facies| Swatch {
+            name: facies.name.clone(),
+            color: Rgb(facies.color.r, facies.color.g, facies.color.b),
+        })
+        .collect();
+    let chosen = tiles::chosen(rows.len());
+    let some = if chosen.len() < rows.len() {
+        format!("{} of ", chosen.len())
+    } else {
+        String::new()
+    };
+    let sheet = |picture: Picture| {
+        let tile = |at: &usize| {
+            let row = &rows[*at];
+            let value = result.and_then(|result| row.values[result]);
+            let member = members.iter().find(|member| member.name() == row.name);
+            let path = member.map_or_else(PathBuf::new, |member| folder.of(member));
+            let path = path.join(picture.file());
+            let png = std::fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
+            let value = value.map_or_else(String::new, |value| format!(" · {value:.4e}"));
+            let caption = format!("{}{value}", row.name);
+            Ok(Tile { png, caption })
+        };
+        let caption = format!("{}: {}", model.name, picture.words());
+        let png = ContactSheet {
+            title: caption.clone(),
+            subtitle: format!(
+                "{some}{} realisations, with their {}",
+                rows.len(),
+                summary.result.replace('_', " ").replace(" m3", " (m³)")
+            ),
+            tiles: chosen.iter().map(tile).collect::<Result<_, Failure>>()?,
+            legend: legend.clone(),
+        }
+        .png()
+        .map_err(|error| Failure::Surroundings(error.to_string()))?;
+        let name = format!("contact-{}", picture.name());
+        Ok(summary::Sheet { name, caption, png })
+    };
+    pictures(args).into_iter().map(sheet).collect()
 }
 
 fn write(folder: &Folder, name: &str, bytes: &[u8]) -> Result<(), Failure> {

@@ -2,6 +2,7 @@
 
 use super::build;
 use super::failure::Failure;
+use super::tiles::{self, Picture};
 use crate::assembly::worker;
 use crate::ensemble::member::digest;
 use crate::ensemble::workers;
@@ -16,6 +17,9 @@ pub(super) struct Args {
     /// The SHA-256 of the model file.
     #[arg(long)]
     sha256: String,
+    /// Small pictures that it draws.
+    #[arg(long, value_enum, value_delimiter = ',')]
+    contact_sheet: Vec<Picture>,
     #[command(flatten)]
     build: build::Args,
 }
@@ -30,14 +34,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     worker::end_with_the_parent()
         .map_err(|error| Failure::Surroundings(format!("no thread can be started: {error}")))?;
-    let model = &args.build.model.model;
-    let bytes = std::fs::read(model).map_err(|error| Failure::file("read", model, &error))?;
+    let model = &args.build.model;
+    let path = &model.model;
+    let bytes = std::fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
     if digest(&bytes) != args.sha256 {
         // Not an answer about the model: the ensemble can go on once it is as it was.
         return Err(Failure::Surroundings(format!(
             "{} has changed since the ensemble began",
-            model.display()
+            path.display()
         )));
     }
-    build::run(&args.build)
+    let (built, folder) = build::make(&args.build)?;
+    tiles::write(&args.contact_sheet, model, built, &folder)
 }

@@ -40,6 +40,8 @@ mod section;
 mod summary;
 #[cfg(feature = "occt")]
 mod surfaces;
+#[cfg(feature = "occt")]
+mod tiles;
 mod traces;
 #[cfg(feature = "occt")]
 mod triangles;

@@ -58,10 +58,19 @@ pub(super) struct Args {
     width: u32,
 }
 
-/// Cells across the raster.
-const COLUMNS: usize = 2000;
-/// Rows of a section's raster.
-const ROWS: usize = 700;
+/// How finely a section is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cells {
+    /// Cells across the raster.
+    pub(super) columns: usize,
+    /// Rows of a section's raster.
+    pub(super) rows: usize,
+}
+
+const CELLS: Cells = Cells {
+    columns: 2000,
+    rows: 700,
+};
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| {
@@ -72,8 +81,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let loaded = load::realise(&args.model, false)?;
     let owners = loaded.owners()?;
     let figure = match args.map {
-        Some(elevation) => map(args, &loaded, &owners, elevation)?,
-        None => section(args, &loaded, &owners)?,
+        Some(elevation) => map(args, &loaded, &owners, elevation, CELLS)?,
+        None => section(args, &loaded, &owners, CELLS)?,
     };
     let bytes = if svg {
         figure.svg().map(String::into_bytes)
@@ -83,7 +92,30 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     picture::write(&output, &bytes.map_err(|error| picture::refused(&error))?)
 }
 
-fn section(args: &Args, loaded: &Loaded, owners: &Owners) -> Result<SectionFigure, Failure> {
+#[cfg(feature = "occt")]
+impl Args {
+    /// What is drawn of a model if nothing else is said; a map at this elevation.
+    pub(super) fn usual(model: ModelArgs, map: Option<f64>) -> Self {
+        Self {
+            model,
+            from: None,
+            to: None,
+            fence: Vec::new(),
+            map,
+            wells: None,
+            exaggeration: None,
+            output: None,
+            width: 0,
+        }
+    }
+}
+
+pub(super) fn section(
+    args: &Args,
+    loaded: &Loaded,
+    owners: &Owners,
+    cells: Cells,
+) -> Result<SectionFigure, Failure> {
     let domain = &loaded.model.domain;
     let line: Vec<DVec2> = match (args.from, args.to, &args.fence[..]) {
         (Some(from), Some(to), _) => vec![DVec2::from_array(from), DVec2::from_array(to)],
@@ -115,7 +147,7 @@ fn section(args: &Args, loaded: &Loaded, owners: &Owners) -> Result<SectionFigur
         horizontal: [0.0, length],
         vertical: domain.z,
     };
-    let raster = raster(COLUMNS, ROWS, extent, |distance, elevation| {
+    let raster = raster(cells.columns, cells.rows, extent, |distance, elevation| {
         owners.at(along(&line, distance).extend(elevation))
     });
     if shows_nothing(&raster) {
@@ -149,11 +181,12 @@ fn section(args: &Args, loaded: &Loaded, owners: &Owners) -> Result<SectionFigur
     })
 }
 
-fn map(
+pub(super) fn map(
     args: &Args,
     loaded: &Loaded,
     owners: &Owners,
     elevation: f64,
+    cells: Cells,
 ) -> Result<SectionFigure, Failure> {
     let domain = &loaded.model.domain;
     if !(domain.z[0]..=domain.z[1]).contains(&elevation) {
@@ -173,8 +206,8 @@ fn map(
         clippy::cast_sign_loss,
         reason = "clamped"
     )]
-    let rows = (COLUMNS as f64 / 2.0 * aspect.clamp(0.1, 10.0)) as usize;
-    let raster = raster(COLUMNS / 2, rows, extent, |x, y| {
+    let rows = (cells.columns as f64 / 2.0 * aspect.clamp(0.1, 10.0)) as usize;
+    let raster = raster(cells.columns / 2, rows, extent, |x, y| {
         owners.at(DVec3::new(x, y, elevation))
     });
     if shows_nothing(&raster) {

@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use glam::DVec3;
 
 use super::args::{ModelArgs, finite, numbers};
-use super::engine::{self, EngineArgs};
+use super::engine::{self, Built, EngineArgs};
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::Progress;
 use super::{interrupt, picture, tubes};
 use crate::export::ExportError;
 use crate::export::mesh::Triangulation;
-use crate::export::picture::view::{Box3, Camera, Cut, Part, Projection, Scene};
-use crate::export::picture::{Rgb, Swatch, Volume, cap};
+use crate::export::picture::view::{Box3, Camera, Cut, Owner, Part, Projection, Scene};
+use crate::export::picture::{PictureError, Rgb, Swatch, Volume, cap};
 use crate::export::sheets::Sheets;
 use crate::mesh::Fineness;
 use crate::model::rules::BACKGROUND;
@@ -42,7 +42,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DEGREES", value_parser = finite, allow_negative_numbers = true, conflicts_with = "below")]
     elevation_deg: Option<f64>,
     /// How many times elevations are stretched.
-    #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true, default_value = "5")]
+    #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true, default_value_t = EXAGGERATION)]
     exaggeration: f64,
     /// Cut away the corner nearest to the eye, to this easting and northing (m).
     #[arg(long, value_name = "X,Y", value_parser = numbers::<2>, allow_hyphen_values = true)]
@@ -84,6 +84,8 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
 const CHORD: f64 = 2e-4;
 /// Largest angle between the surface's normals along a triangle's side (rad).
 const ANGLE: f64 = 0.3;
+/// How many times elevations are stretched if it is not said.
+const EXAGGERATION: f64 = 5.0;
 /// The eye's distance in perspective, in diagonals.
 const DISTANCE: f64 = 3.0;
 
@@ -98,14 +100,57 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     let loaded = load::realise(&args.model, false)?;
-    let owners = loaded.owners()?;
-    let (mut volumes, mut legend) = picture::key(&loaded);
-    let (low, high) = (owners.extent().low(), owners.extent().high());
-    let camera = camera(args);
     let (parts, loaded) = match args.style {
         Style::Block => (Vec::new(), loaded),
         Style::Solids | Style::Sheets => assembled(args, loaded)?,
     };
+    let bytes = drawn(args, &loaded, parts, |scene, shown| {
+        scene.png(args.size[0], args.size[1], Some(shown))
+    })?;
+    picture::write(&output, &bytes)
+}
+
+/// The solids that were built, as parts.
+pub(super) fn solids(built: &Built) -> Result<Vec<Part>, Failure> {
+    parts(Style::Solids, built)
+}
+
+/// What `clinothem view` shows of these solids if nothing else is said, without words.
+pub(super) fn tile(
+    model: ModelArgs,
+    loaded: &Loaded,
+    solids: Vec<Part>,
+    size: [u32; 2],
+) -> Result<Vec<u8>, Failure> {
+    let args = Args {
+        model,
+        style: Style::Solids,
+        below: false,
+        azimuth_deg: None,
+        elevation_deg: None,
+        exaggeration: EXAGGERATION,
+        cut: None,
+        perspective: false,
+        output: None,
+        size,
+        engine: EngineArgs::default(),
+    };
+    drawn(&args, loaded, solids, |scene, shown| {
+        scene.tile(size[0], size[1], Some(shown))
+    })
+}
+
+/// A view of these parts, which `draw` makes a picture of.
+fn drawn(
+    args: &Args,
+    loaded: &Loaded,
+    parts: Vec<Part>,
+    draw: impl Fn(&Scene, Owner<'_>) -> Result<Vec<u8>, PictureError>,
+) -> Result<Vec<u8>, Failure> {
+    let owners = loaded.owners()?;
+    let (mut volumes, mut legend) = picture::key(loaded);
+    let (low, high) = (owners.extent().low(), owners.extent().high());
+    let camera = camera(args);
     let shown = |point: DVec3| {
         let owner = owners.at(point)?;
         // Among solids the background stays open, so that they can be seen.
@@ -152,10 +197,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         camera,
         cut,
     };
-    let bytes = scene
-        .png(args.size[0], args.size[1], Some(&shown))
-        .map_err(|error| picture::refused(&error))?;
-    picture::write(&output, &bytes)
+    draw(&scene, &shown).map_err(|error| picture::refused(&error))
 }
 
 fn camera(args: &Args) -> Camera {
@@ -192,11 +234,17 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
     let progress = Progress::new(args.engine.quiet);
     let built = engine::assemble(loaded, &args.engine, &cancel, &progress)?;
     progress.stage("drawing");
+    let parts = parts(args.style, &built)?;
+    progress.done();
+    Ok((parts, built.into_loaded()))
+}
+
+fn parts(style: Style, built: &Built) -> Result<Vec<Part>, Failure> {
     let fineness = Fineness {
         chord: CHORD * built.subject.plan.low().distance(built.subject.plan.high()),
         angle: ANGLE,
     };
-    let meshes = match args.style {
+    let meshes = match style {
         Style::Sheets => {
             let (plan, realisation) = (&built.subject.plan, &built.subject.realisation);
             let sheets = Sheets::trimmed(&built.assembly, plan, realisation, &fineness);
@@ -212,8 +260,7 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
             .and_then(|triangles| triangles.volumes(&built.assembly)),
     };
     let meshes = meshes.map_err(|error: ExportError| Failure::Surroundings(error.to_string()))?;
-    progress.done();
-    let parts = meshes
+    Ok(meshes
         .into_iter()
         .filter(|mesh| mesh.volume != BACKGROUND)
         .map(|mesh| Part {
@@ -227,6 +274,5 @@ fn assembled(args: &Args, loaded: Loaded) -> Result<(Vec<Part>, Loaded), Failure
             triangles: mesh.triangles,
             opacity: 1.0,
         })
-        .collect();
-    Ok((parts, built.into_loaded()))
+        .collect())
 }

@@ -172,9 +172,12 @@ impl Folder {
         self.staging.path().join(member.name().replace('/', "."))
     }
 
-    /// Writes a file that is whole or not there.
+    /// Writes a file that is whole or not there; what a run that is killed leaves of it goes with what else it left unfinished.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        file::write(&self.path.join(name), [bytes])
+        let unfinished = self.staging.path().join(name);
+        fs::write(&unfinished, bytes)?;
+        file::readable(&unfinished)?;
+        fs::rename(unfinished, self.path.join(name))
     }
 
     /// What is kept of a member that is settled, if every file of it is as it was written.

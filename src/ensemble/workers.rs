@@ -25,6 +25,9 @@ const ATTEMPTS: u32 = 2;
 /// Exit codes of an answer: the model or the arguments are wrong, the assembly could not be proven.
 const ANSWERS: [i32; 2] = [1, 2];
 
+/// The exit code of what is no matter of the model: a full disk, a missing permission, a model file that was changed meanwhile.
+const SURROUNDINGS: i32 = 3;
+
 /// The shortest and the longest time between two looks at a worker.
 const PATIENCE: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(20)];
 
@@ -65,6 +68,8 @@ pub enum End {
     TooLong(Duration),
     /// It wanted more memory than it may have, twice.
     OutOfMemory(u64),
+    /// Its surroundings failed, twice; they would fail every other one, too.
+    Surroundings(String),
 }
 
 impl End {
@@ -76,6 +81,7 @@ impl End {
             Self::Crashed(_) => "crashed",
             Self::TooLong(_) => "time limit",
             Self::OutOfMemory(_) => "memory limit",
+            Self::Surroundings(_) => "surroundings",
         }
     }
 
@@ -83,7 +89,9 @@ impl End {
     pub fn words(&self) -> String {
         match self {
             Self::Settled(Settled::Made) => String::new(),
-            Self::Settled(Settled::Refused { words, .. }) | Self::Crashed(words) => words.clone(),
+            Self::Settled(Settled::Refused { words, .. })
+            | Self::Crashed(words)
+            | Self::Surroundings(words) => words.clone(),
             Self::TooLong(limit) => {
                 let seconds = limit.as_secs_f64();
                 format!("it took longer than {seconds} s; allow more with --time-limit")
@@ -122,6 +130,14 @@ pub enum WorkersError {
         "the program could not be started again: {0}; end other programs, or take fewer --workers"
     )]
     Start(io::Error),
+    /// A process could not do what it does, through no fault of the model.
+    #[error("realisation {member}: {words}")]
+    Surroundings {
+        /// The realisation.
+        member: String,
+        /// Its last words.
+        words: String,
+    },
     /// A file could not be written or moved.
     #[error("cannot write to {}: {source}", path.display())]
     Io {
@@ -145,8 +161,10 @@ pub fn make(
     let queue: Mutex<VecDeque<usize>> = Mutex::new(due.iter().copied().collect());
     let ended: Mutex<Vec<Ended>> = Mutex::default();
     let failed: Mutex<Option<WorkersError>> = Mutex::default();
+    // A function of its own, so that nobody holds the queue while a member is made.
+    let next = || lock(&queue).pop_front();
     let work = || {
-        while let Some(at) = lock(&queue).pop_front() {
+        while let Some(at) = next() {
             match settle(at, &members[at], job, folder, cancel) {
                 Ok(end) => {
                     tell(&end);
@@ -211,6 +229,13 @@ fn settle(
         End::Settled(outcome) => folder
             .settle(member, member.key(&job.common), outcome.clone())
             .map_err(io)?,
+        End::Surroundings(words) => {
+            folder.forget(member).map_err(io)?;
+            return Err(WorkersError::Surroundings {
+                member: member.name(),
+                words: words.clone(),
+            });
+        }
         _ => folder.forget(member).map_err(io)?,
     }
     Ok(Ended {
@@ -313,6 +338,7 @@ fn end_of(status: ExitStatus, words: String, memory_limit: Option<u64>) -> End {
         (Some(code), _) if ANSWERS.contains(&code) => {
             End::Settled(Settled::Refused { code, words })
         }
+        (Some(SURROUNDINGS), _) if !words.is_empty() => End::Surroundings(words),
         _ if words.is_empty() => End::Crashed(format!("its process ended abnormally ({status})")),
         _ => End::Crashed(format!("its process ended abnormally ({status}): {words}")),
     }

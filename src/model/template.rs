@@ -96,6 +96,8 @@ pub const TEMPLATES: &[Template] = templates! {
 
     "fig02-wells" with ["a-3.dev", "a-4.csv"]: "five wells and a lateral from one site, through the coastal model",
 
+    "fig01-grid-or-surface": "sparse channels, of whose connectivity grids are wrong",
+
     "rock": "properties drawn for each volume, permeabilities along its layers",
 
     "rules" / "removes": "`removes` as a list: by id, kind, level and facies",

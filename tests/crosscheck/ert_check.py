@@ -6,6 +6,7 @@ from where ERT has it from (the design matrix), or from its own file of paramete
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -29,6 +30,9 @@ KEYS = {
     "OWC": [],
 }
 
+# The queue: LOCAL, or another one that integrations/ert/README.md has lines for.
+QUEUE = os.environ.get("ERT_QUEUE", "LOCAL")
+
 wrong: list[str] = []
 
 
@@ -49,6 +53,26 @@ def ert(configuration: Path, environment: dict[str, str] | None = None) -> subpr
         check=False,
         timeout=3600,
     )
+
+
+def queue_lines() -> str:
+    """What the README says that takes the place of the local queue."""
+    readme = (CONFIGURATIONS / "README.md").read_text(encoding="utf-8").splitlines()
+    first = next(at for at, line in enumerate(readme) if line.startswith("QUEUE_SYSTEM"))
+    last = readme.index("```", first)
+    columns = list(zip(*(re.split(" {2,}", line) for line in readme[first:last]), strict=True))
+    return "\n".join(next(column for column in columns if column[0] == f"QUEUE_SYSTEM {QUEUE}"))
+
+
+def to_the_queue(configuration: Path) -> None:
+    """Has a configuration run in the queue that is asked for."""
+    if QUEUE == "LOCAL":
+        return
+    text = configuration.read_text(encoding="utf-8")
+    local = re.compile("^QUEUE_SYSTEM LOCAL\n(QUEUE_OPTION LOCAL .*\n)*", re.MULTILINE)
+    text, count = local.subn(queue_lines() + "\n", text)
+    assert count == 1, f"{configuration} has no local queue"
+    configuration.write_text(text, encoding="utf-8")
 
 
 def build(model: Path, settings: list[tuple[str, object]], seed: int, folder: Path) -> dict:
@@ -190,6 +214,9 @@ def limit_of_time() -> None:
     compare(folder, "channel-belt/channel-belt.toml", {0: [("feature.channel.count", 2)]}, {})
 
 
+for name in ["coastal/coastal.ert", "design/design.ert"]:
+    to_the_queue(CONFIGURATIONS / name)
+print(f"ERT's queue: {QUEUE}")
 coastal()
 limit_of_time()
 print("design: a matrix, steps from files")

@@ -1,7 +1,10 @@
 //! Ensembles that are killed, whose workers are killed, or hang, or want too much.
 
+use std::collections::BTreeMap;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
+
+use clinothem::model::Stream;
 
 use super::{QUICK, Sandbox, assert_same, files, table};
 
@@ -50,45 +53,146 @@ fn wait(what: &str, mut is_true: impl FnMut() -> bool) {
     }
 }
 
+/// How often an ensemble is killed.
+const KILLS: u32 = 20;
+/// The longest that a worker may outlive its parent.
+const MOURNING: Duration = Duration::from_secs(1);
+
+/// Whether a process is a worker that still runs: one that has ended and was not asked for has no command line.
+fn is_worker(id: u32) -> bool {
+    std::fs::read(format!("/proc/{id}/cmdline"))
+        .is_ok_and(|line| String::from_utf8_lossy(&line).contains("ensemble-worker"))
+}
+
+/// Each file in its place is as it is in the whole ensemble, though others may be missing. Returns how many there are.
+#[track_caller]
+fn assert_part_of(part: &BTreeMap<String, Vec<u8>>, whole: &BTreeMap<String, Vec<u8>>) -> usize {
+    let in_place = |name: &&String| !name.starts_with(".unfinished-");
+    let found: Vec<&String> = part.keys().filter(in_place).collect();
+    for name in &found {
+        assert!(part[*name] == whole[*name], "{name} is half-written");
+    }
+    found.len()
+}
+
 #[test]
-fn an_ensemble_that_is_killed_again_and_again_comes_to_the_same_bytes() {
+fn an_ensemble_that_is_killed_at_twenty_random_moments_comes_to_the_same_bytes() {
     let sandbox = Sandbox::of(SLOW);
-    let arguments = "ensemble model.toml -n 6 --workers 2 --quiet --set feature.channel.count=8";
+    let arguments = "ensemble model.toml -n 24 --workers 2 --quiet --set feature.channel.count=4";
+    let started = Instant::now();
     sandbox.answer(&format!("{arguments} -o whole"));
+    let undisturbed = started.elapsed();
+    let whole = files(&sandbox, "whole");
     let killed = format!("{arguments} -o killed");
-    for pause in [0, 30, 60, 150] {
+    let (mut alive, mut at_once) = (0, 0);
+    for kill_number in 0..KILLS {
         let mut parent = start(&sandbox, &killed);
         let id = parent.id();
-        let mut workers = Vec::new();
-        wait("no worker was started", || {
-            workers = children(id);
-            !workers.is_empty() || parent.try_wait().unwrap().is_some()
-        });
-        std::thread::sleep(Duration::from_millis(pause));
-        workers.extend(children(id));
-        kill(id);
-        parent.wait().unwrap();
-        wait("workers outlive their parent", || {
-            let is_ours = |id: &u32| {
-                std::fs::read(format!("/proc/{id}/cmdline"))
-                    .is_ok_and(|line| String::from_utf8_lossy(&line).contains("ensemble-worker"))
-            };
-            !workers.iter().any(is_ours)
-        });
+        // On the way to the end, where tables and plots are made.
+        let moment = Stream::new(1, "test", "killed", "moment", kill_number).unit();
+        std::thread::sleep(undisturbed.mul_f64(moment / 8.0));
+        let workers = children(id);
+        at_once = at_once.max(workers.len());
+        let is_alive = parent.try_wait().unwrap().is_none();
+        alive += u32::from(is_alive);
+        if is_alive {
+            kill(id);
+            parent.wait().unwrap();
+        }
+        let mourning = Instant::now();
+        while workers.iter().any(|id| is_worker(*id)) {
+            assert!(
+                mourning.elapsed() < MOURNING,
+                "workers outlive their parent"
+            );
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        // It may have been killed before it began.
+        if sandbox.path("killed").exists() {
+            assert_part_of(&files(&sandbox, "killed"), &whole);
+        }
+        if !is_alive {
+            // It came to its end, and begins anew.
+            std::fs::remove_dir_all(sandbox.path("killed")).unwrap();
+        }
     }
-    // One that was finished is damaged, as by a disk that is full.
-    let first = sandbox.path("killed/realisations/0001/report.json");
-    if let Ok(bytes) = std::fs::read(&first) {
-        std::fs::write(&first, &bytes[..bytes.len() / 2]).unwrap();
-    }
+    assert!(alive >= 10, "only {alive} were still at work when killed");
+    assert_eq!(at_once, 2, "as many work at a time as were asked for");
     sandbox.answer(&killed);
-    assert_same(&files(&sandbox, "whole"), &files(&sandbox, "killed"));
+    assert_same(&whole, &files(&sandbox, "killed"));
+    // One that was finished is damaged, as by a copy that ended half-way.
+    let first = sandbox.path("killed/realisations/0001/report.json");
+    let bytes = std::fs::read(&first).unwrap();
+    std::fs::write(&first, &bytes[..bytes.len() / 2]).unwrap();
+    sandbox.answer(&killed);
+    assert_same(&whole, &files(&sandbox, "killed"));
     let left = std::fs::read_dir(sandbox.path("killed")).unwrap();
     let left = left.filter(|entry| {
         let name = entry.as_ref().unwrap().file_name();
         name.to_string_lossy().starts_with(".unfinished")
     });
     assert_eq!(left.count(), 0);
+}
+
+/// Runs an ensemble in a file system of some size (in KiB), then again once it is larger, each time with a copy of what there is.
+const FULL_DISK: &str = r#"
+mount -t tmpfs -o size="$2k" tmpfs disk
+"$1" ensemble model.toml $3 -o disk/out
+echo "$?" > first-code
+cp -a disk/out first
+mount -o remount,size=256m disk
+"$1" ensemble model.toml $3 -o disk/out
+echo "$?" > second-code
+cp -a disk/out second
+"#;
+
+/// As the only user of file systems of its own, which needs no rights but is not allowed everywhere.
+fn in_file_systems_of_its_own(sandbox: &Sandbox) -> Command {
+    let mut command = Command::new("unshare");
+    command
+        .args(["--map-root-user", "--mount", "sh", "-c"])
+        .current_dir(sandbox.path(""));
+    command
+}
+
+#[test]
+fn a_disk_that_is_full_half_way_ends_it_and_with_more_room_it_comes_to_the_same_bytes() {
+    let sandbox = Sandbox::of(SLOW);
+    let able = in_file_systems_of_its_own(&sandbox)
+        .arg("mkdir trial && mount -t tmpfs tmpfs trial")
+        .stderr(Stdio::null())
+        .status();
+    if !able.is_ok_and(|status| status.success()) {
+        // Containers may forbid it: then it is seen where they do not.
+        return;
+    }
+    std::fs::create_dir(sandbox.path("disk")).unwrap();
+    for write in ["tables", "step"] {
+        let arguments =
+            format!("-n 12 --workers 2 --quiet --set feature.channel.count=3 --write {write}");
+        sandbox.answer(&format!("ensemble model.toml {arguments} -o whole"));
+        let whole = files(&sandbox, "whole");
+        // Files take whole pages; there is room for half of the realisations.
+        let made = whole.iter().filter(|(name, _)| name.contains('/'));
+        let pages: usize = made.map(|(_, bytes)| bytes.len().div_ceil(4096)).sum();
+        let output = in_file_systems_of_its_own(&sandbox)
+            .args([FULL_DISK, "sh", env!("CARGO_BIN_EXE_clinothem")])
+            .args([&(pages * 4 / 2).to_string(), &arguments])
+            .output()
+            .unwrap();
+        let errors = String::from_utf8(output.stderr).unwrap();
+        let code = |name: &str| std::fs::read_to_string(sandbox.path(name)).unwrap();
+        assert_eq!(code("first-code").trim(), "3", "{errors}");
+        assert!(errors.contains("No space left on device"), "{errors}");
+        assert!(errors.contains("goes on from there"), "{errors}");
+        let made = assert_part_of(&files(&sandbox, "first"), &whole);
+        assert!(made > 1, "nothing was finished before the disk was full");
+        assert_eq!(code("second-code").trim(), "0", "{errors}");
+        assert_same(&whole, &files(&sandbox, "second"));
+        for folder in ["whole", "first", "second"] {
+            std::fs::remove_dir_all(sandbox.path(folder)).unwrap();
+        }
+    }
 }
 
 #[test]

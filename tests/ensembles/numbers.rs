@@ -186,3 +186,23 @@ fn scenarios_differ_by_what_they_change_and_by_no_draw() {
     }
     assert!(files.contains_key("scenarios.svg") && files.contains_key("tornado-deep.png"));
 }
+
+#[test]
+fn parts_that_were_made_apart_are_one_ensemble_once_they_are_put_together() {
+    let sandbox = Sandbox::of(QUICK);
+    for (seeds, folder) in [("1..6", "whole"), ("1..3", "first"), ("4..6", "second")] {
+        sandbox.answer(&format!(
+            "ensemble model.toml --seeds {seeds} --quiet -o {folder}"
+        ));
+    }
+    // Those of the second part are numbered from 1, too.
+    for (from, to) in [("0001", "0004"), ("0002", "0005"), ("0003", "0006")] {
+        let from = sandbox.path(&format!("second/realisations/{from}"));
+        std::fs::rename(from, sandbox.path(&format!("first/realisations/{to}"))).unwrap();
+    }
+    sandbox.answer("ensemble model.toml --seeds 1..6 --quiet -o first");
+    let run = std::fs::read_to_string(sandbox.path("first/run.json")).unwrap();
+    let run: serde_json::Value = serde_json::from_str(&run).unwrap();
+    assert_eq!((&run["made_now"], &run["kept"]), (&0.into(), &6.into()));
+    assert_same(&files(&sandbox, "whole"), &files(&sandbox, "first"));
+}

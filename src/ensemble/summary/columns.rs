@@ -101,17 +101,12 @@ impl Table {
     /// Of members and what their reports say.
     pub fn of<'a>(made: impl Iterator<Item = (&'a Member, &'a Told)>) -> Self {
         let mut rows = Vec::new();
-        let mut cells: Vec<[Numbers; 3]> = Vec::new();
+        let mut cells: Vec<(Numbers, &Told)> = Vec::new();
         for (member, told) in made {
             let design = member.design.iter();
             let design = design.filter_map(|(key, value)| Some((key.clone(), value.parse().ok()?)));
-            cells.push([
-                design
-                    .filter(|(_, value): &(_, f64)| value.is_finite())
-                    .collect(),
-                told.drawn.clone(),
-                told.measures.clone(),
-            ]);
+            let design = design.filter(|(_, value): &(_, f64)| value.is_finite());
+            cells.push((design.collect(), told));
             rows.push(Row {
                 name: member.name(),
                 scenario: member.scenario.clone(),
@@ -127,7 +122,7 @@ impl Table {
             .into_iter()
             .enumerate()
         {
-            for (name, _) in cells.iter().flat_map(|cells| &cells[part]) {
+            for (name, _) in cells.iter().flat_map(|cells| numbers_of(cells)[part]) {
                 if !places[part].contains_key(name) {
                     places[part].insert(name.clone(), columns.len());
                     let name = name.clone();
@@ -135,17 +130,23 @@ impl Table {
                 }
             }
         }
-        for (row, cells) in rows.iter_mut().zip(cells) {
+        for (row, cells) in rows.iter_mut().zip(&cells) {
             row.values = vec![None; columns.len()];
-            for (numbers, places) in cells.into_iter().zip(&places) {
+            for (numbers, places) in numbers_of(cells).into_iter().zip(&places) {
                 for (name, value) in numbers {
-                    if let Some(at) = places.get(&name) {
-                        row.values[*at] = Some(value);
+                    if let Some(at) = places.get(name) {
+                        row.values[*at] = Some(*value);
                     }
                 }
             }
         }
         Self { columns, rows }
+    }
+
+    /// All rows, or as many at equal steps.
+    pub(super) fn some(&self, most: usize) -> impl Iterator<Item = &Row> {
+        let shown = self.rows.len().min(most);
+        (0..shown).map(move |at| &self.rows[at * self.rows.len() / shown])
     }
 
     fn having(&self, wanted: fn(Role) -> bool) -> impl Iterator<Item = (usize, &str)> {
@@ -185,6 +186,11 @@ impl Table {
             None => of_facies().map_or_else(String::new, |(_, name)| name.to_owned()),
         }
     }
+}
+
+/// What is designed, drawn and measured.
+fn numbers_of<'a>(cells: &'a (Numbers, &'a Told)) -> [&'a Numbers; 3] {
+    [&cells.0, &cells.1.drawn, &cells.1.measures]
 }
 
 fn array<'a>(report: &'a Value, key: &str) -> &'a [Value] {
@@ -381,6 +387,32 @@ mod tests {
             "rejected_draws": [{ "count": 2 }, { "count": 3 }],
             "assembly": { "solids": 4 },
         })
+    }
+
+    #[test]
+    fn of_many_rows_some_are_taken_from_the_first_on_at_equal_steps() {
+        let rows = |count: usize| {
+            let row = |at: usize| Row {
+                name: at.to_string(),
+                scenario: None,
+                number: at,
+                seed: 0,
+                values: Vec::new(),
+                design: Vec::new(),
+            };
+            Table {
+                columns: Vec::new(),
+                rows: (0..count).map(row).collect(),
+            }
+        };
+        let numbers = |table: &Table| table.some(1000).map(|row| row.number).collect::<Vec<_>>();
+        assert_eq!(numbers(&rows(3)), [0, 1, 2]);
+        assert_eq!(numbers(&rows(0)), [0; 0]);
+        let many = numbers(&rows(2500));
+        assert_eq!(
+            (many.len(), many[0], many[1], many[999]),
+            (1000, 0, 2, 2497)
+        );
     }
 
     #[test]

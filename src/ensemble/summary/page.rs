@@ -2,6 +2,10 @@
 
 use std::fmt::Write as _;
 
+use base64::prelude::{BASE64_STANDARD, Engine as _};
+
+use super::columns::Row;
+use super::explorer;
 use super::plots::Plot;
 use super::whole::{Summary, TORNADO};
 
@@ -13,7 +17,7 @@ th:first-child,td:first-child{text-align:left}th{background:#f3f3f0}\
 .sortable th{cursor:pointer}.sortable th[aria-sort=ascending]:after{content:' ▲'}\
 .sortable th[aria-sort=descending]:after{content:' ▼'}\
 .scroll{overflow:auto;max-height:70vh}.scroll th{position:sticky;top:0}\
-.warning{background:#fff3d6;padding:.5em .8em;border-left:4px solid #d98b2b}figure{margin:1em 0}svg{max-width:100%;height:auto}";
+.warning{background:#fff3d6;padding:.5em .8em;border-left:4px solid #d98b2b}figure{margin:1em 0}svg,img{max-width:100%;height:auto}";
 
 /// Sorts a table by the column whose head is clicked: by number where all are numbers, empty cells last.
 const SCRIPT: &str = "document.querySelectorAll('table.sortable').forEach(function(table){\
@@ -30,6 +34,9 @@ var d=Number(x)-Number(y);if(isNaN(d))d=x<y?-1:x>y?1:0;return up?d:-d});\
 rows.forEach(function(row){body.appendChild(row)})}\
 head.addEventListener('click',sort);\
 head.addEventListener('keydown',function(e){if(e.key==='Enter')sort()})})});";
+
+/// Most realisations that the page shows one by one: a browser sorts and plots no more of them without waiting.
+const MOST: usize = 1000;
 
 /// A text as it stands in HTML.
 fn escaped(text: &str) -> String {
@@ -111,8 +118,19 @@ impl Cell {
     }
 }
 
+/// A picture of many realisations that is to be on the page.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// The name of its file, without ending.
+    pub name: String,
+    /// What it shows.
+    pub caption: String,
+    /// The PNG file.
+    pub png: Vec<u8>,
+}
+
 /// The page.
-pub fn page(summary: &Summary, plots: &[Plot]) -> String {
+pub fn page(summary: &Summary, plots: &[Plot], sheets: &[Sheet]) -> String {
     let title = escaped(&summary.model);
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}: ensemble</title>\n\
@@ -125,6 +143,16 @@ pub fn page(summary: &Summary, plots: &[Plot]) -> String {
             "<figure aria-label=\"{}\">{}</figure>",
             escaped(&plot.caption),
             plot.svg
+        );
+    }
+    let rows: Vec<&Row> = summary.table.some(MOST).collect();
+    out.push_str(&explorer::html(summary, &rows));
+    for sheet in sheets {
+        let _ = writeln!(
+            out,
+            "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"></figure>",
+            escaped(&sheet.caption),
+            BASE64_STANDARD.encode(&sheet.png)
         );
     }
     spreads(&mut out, summary);
@@ -264,7 +292,7 @@ fn realisations(out: &mut String, summary: &Summary) {
     let mut heads = vec!["realisation", "seed"];
     heads.extend(measures.iter().map(|(_, name)| *name));
     begin_table(out, "Realisations", &heads);
-    for one in &summary.table.rows {
+    for one in summary.table.some(MOST) {
         let names = [Cell::text(&one.name), Cell::Text(one.seed.to_string())];
         let numbers = measures
             .iter()
@@ -272,6 +300,13 @@ fn realisations(out: &mut String, summary: &Summary) {
         row(out, "td", names.into_iter().chain(numbers));
     }
     end_table(out);
+    let all = summary.table.rows.len();
+    if all > MOST {
+        let _ = writeln!(
+            out,
+            "<p>{MOST} of {all}, at equal steps; <code>realisations.csv</code> has all of them.</p>"
+        );
+    }
     out.push_str("<p>What was drawn stands in <code>realisations.csv</code>.</p>\n");
 }
 

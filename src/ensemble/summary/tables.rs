@@ -1,6 +1,6 @@
 //! The tables of a summary, with commas between their values.
 
-use super::columns::Role;
+use super::columns::{Role, Row};
 use super::whole::Summary;
 use crate::ensemble::statistics::Spread;
 use crate::export::{ExportError, rows};
@@ -18,44 +18,92 @@ fn number(value: f64) -> String {
     format!("{value}")
 }
 
-/// A line for each realisation that was made. What was drawn has `drawn.` before its name, so that no measure has the same.
-pub fn realisations(summary: &Summary) -> Result<String, ExportError> {
+/// A column of the table of realisations.
+pub(super) struct Values<'a> {
+    /// Its name. What was drawn has `drawn.` before it, so that no measure has the same.
+    pub(super) name: String,
+    /// A value of each realisation.
+    pub(super) of: Kind<'a>,
+}
+
+/// What a column holds.
+pub(super) enum Kind<'a> {
+    Text(Vec<Option<&'a str>>),
+    Whole(Vec<u64>),
+    Number(Vec<Option<f64>>),
+}
+
+/// The table of the realisations that were made, column by column.
+pub(super) fn columns(summary: &Summary) -> Vec<Values<'_>> {
     let table = &summary.table;
-    let mut header = texts(["realisation", "scenario", "number", "seed"]);
+    let rows = || table.rows.iter();
+    let mut columns = vec![
+        Values {
+            name: "realisation".to_owned(),
+            of: Kind::Text(rows().map(|row| Some(row.name.as_str())).collect()),
+        },
+        Values {
+            name: "scenario".to_owned(),
+            of: Kind::Text(rows().map(|row| row.scenario.as_deref()).collect()),
+        },
+        Values {
+            name: "number".to_owned(),
+            of: Kind::Whole(rows().map(|row| row.number as u64).collect()),
+        },
+        Values {
+            name: "seed".to_owned(),
+            of: Kind::Whole(rows().map(|row| row.seed).collect()),
+        },
+    ];
     let mut keys: Vec<&str> = Vec::new();
-    for row in &table.rows {
-        for (key, _) in &row.design {
-            if !keys.contains(&key.as_str()) {
-                keys.push(key);
-            }
+    for (key, _) in rows().flat_map(|row| &row.design) {
+        if !keys.contains(&key.as_str()) {
+            keys.push(key);
         }
     }
-    header.extend(keys.iter().map(|key| format!("design.{key}")));
-    let numbers: Vec<usize> = (0..table.columns.len())
-        .filter(|at| table.columns[*at].role != Role::Design)
-        .collect();
-    header.extend(numbers.iter().map(|at| match &table.columns[*at] {
-        column if column.role == Role::Drawn => format!("drawn.{}", column.name),
-        column => column.name.clone(),
-    }));
-    let rows = table.rows.iter().map(|row| {
-        let mut line = vec![
-            row.name.clone(),
-            row.scenario.clone().unwrap_or_default(),
-            row.number.to_string(),
-            row.seed.to_string(),
-        ];
-        line.extend(keys.iter().map(|key| {
-            let found = row.design.iter().find(|(own, _)| own == key);
-            found.map(|(_, value)| value.clone()).unwrap_or_default()
-        }));
-        line.extend(
-            numbers
-                .iter()
-                .map(|at| row.values[*at].map(number).unwrap_or_default()),
-        );
-        line
-    });
+    for key in keys {
+        let of = |row: &'_ Row| row.design.iter().position(|(own, _)| own == key);
+        let values = rows().map(|row| Some(row.design[of(row)?].1.as_str()));
+        columns.push(Values {
+            name: format!("design.{key}"),
+            of: Kind::Text(values.collect()),
+        });
+    }
+    for (at, column) in table.columns.iter().enumerate() {
+        let name = match column.role {
+            Role::Design => continue,
+            Role::Drawn => format!("drawn.{}", column.name),
+            Role::Measure => column.name.clone(),
+        };
+        let values = rows().map(|row| row.values[at]).collect();
+        columns.push(Values {
+            name,
+            of: Kind::Number(values),
+        });
+    }
+    columns
+}
+
+impl Kind<'_> {
+    /// The value of a row, as it is written; nothing if it has none.
+    fn written(&self, row: usize) -> String {
+        match self {
+            Self::Text(values) => values[row].unwrap_or_default().to_owned(),
+            Self::Whole(values) => values[row].to_string(),
+            Self::Number(values) => values[row].map(number).unwrap_or_default(),
+        }
+    }
+}
+
+/// A line for each realisation that was made.
+pub fn realisations(summary: &Summary) -> Result<String, ExportError> {
+    let columns = columns(summary);
+    let header = columns.iter().map(|column| column.name.clone()).collect();
+    let line = |row: usize| -> Vec<String> {
+        let cells = columns.iter();
+        cells.map(|column| column.of.written(row)).collect()
+    };
+    let rows = (0..summary.table.rows.len()).map(line);
     csv(std::iter::once(header).chain(rows))
 }
 

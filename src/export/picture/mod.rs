@@ -12,6 +12,7 @@ mod camera;
 mod canvas;
 pub mod cap;
 mod check;
+pub mod contact;
 mod drawing;
 mod face;
 mod figure;

@@ -40,6 +40,21 @@ impl Page {
         }
     }
 
+    /// A page that holds a picture alone: each of its pixels is one of the picture.
+    pub(super) fn plain(width: u32, height: u32) -> Self {
+        Self {
+            size: DVec2::new(f64::from(width), f64::from(height)),
+            scale: 1.0,
+            pixels: [width, height],
+            layout: Layout::Strip,
+        }
+    }
+
+    /// Width and height of the picture.
+    pub(super) fn pixels(&self) -> [u32; 2] {
+        self.pixels
+    }
+
     /// White paper, then `under`, the image (premultiplied RGBA) and `over`.
     pub(super) fn compose(
         &self,

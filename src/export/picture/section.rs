@@ -12,6 +12,7 @@ use super::{
     PictureError, Rgb, SMALLEST_SIDE,
     canvas::{Canvas, Ends, INK, escaped, path, pen},
     check::size,
+    drawing::rasterised,
     font,
     legend::Legend,
     outline::Outlines,
@@ -57,6 +58,32 @@ impl SectionFigure {
         let svg = drawing.canvas.finish(drawing.size.x, drawing.size.y, "");
         font::draw(&svg, scale, &mut pixels)?;
         font::png(&pixels)
+    }
+
+    /// The coloured areas alone, as a PNG file `width` pixels wide and at most as high: to be shown among many others.
+    pub fn tile(&self, width: u32) -> Result<Vec<u8>, PictureError> {
+        self.check()?;
+        size(width, SMALLEST_SIDE)?;
+        let [across, up] = self.extent.spans();
+        let stretch = match &self.kind {
+            Kind::Section {
+                vertical_exaggeration,
+                ..
+            } => *vertical_exaggeration,
+            Kind::Map { .. } => 1.0,
+        };
+        let most = f64::from(width);
+        let wanted = DVec2::new(across, up * stretch);
+        let scale = most / wanted.max_element();
+        let plot = Plot {
+            low: DVec2::ZERO,
+            size: (wanted * scale).round().max(DVec2::splat(LEAST_SIDE)),
+            extent: self.extent,
+        };
+        let mut canvas = Canvas::default();
+        self.fill(&mut canvas, &plot);
+        let svg = canvas.finish(plot.size.x, plot.size.y, "");
+        rasterised(&svg, plot.size.as_uvec2().to_array(), 1.0)
     }
 
     fn drawing(&self) -> Result<Drawing, PictureError> {

@@ -65,29 +65,7 @@ impl Scene {
             },
         );
 
-        // Pictures in pixels, text in pixels of the page.
-        let fine = eye.finer(page.scale);
-        let asked = owner.map(|owner| Asked {
-            owner,
-            volumes: self.volumes.len(),
-            eye: &fine,
-            domain: &self.domain,
-        });
-        let faces = match asked {
-            Some(asked) => face::faces(asked, &removed)?,
-            None => Vec::new(),
-        };
-        let mut labels: BTreeSet<u32> = faces.iter().flat_map(face::Face::labels).collect();
-        labels.remove(&OPEN);
-        let drawing = Drawing {
-            objects: self.objects(&faces, &fine, &removed),
-            colors: self.volumes.iter().map(|v| self.color(v)).collect(),
-            asked,
-            eye: &fine,
-            line: 0.5 * page.scale,
-        };
-        let image = raster::draw(&drawing, width as usize, height as usize)?;
-
+        let (image, labels) = self.image(&page, &eye, owner, &removed)?;
         let edges = furniture::edges(&self.domain, &eye);
         let mut under = Canvas::default();
         furniture::back(&mut under, &edges, &eye, &self.domain, &removed);
@@ -101,6 +79,64 @@ impl Scene {
             [top, strip],
         )?;
         page.compose(&under, &image, &over)
+    }
+
+    /// The same without heading, axes and legend: to be shown among many others.
+    pub fn tile(
+        &self,
+        width: u32,
+        height: u32,
+        owner: Option<Owner<'_>>,
+    ) -> Result<Vec<u8>, PictureError> {
+        self.check()?;
+        size(width, height)?;
+        let page = Page::plain(width, height);
+        let removed = self
+            .cut
+            .as_ref()
+            .map_or_else(Vec::new, |cut| cut.half_spaces(&self.domain));
+        let margin = DVec2::splat(TILE_MARGIN);
+        let eye = Eye::new(&self.camera, &self.domain);
+        let eye = eye.fitted(&self.domain, margin, page.size - margin);
+        let (image, _) = self.image(&page, &eye, owner, &removed)?;
+        let edges = furniture::edges(&self.domain, &eye);
+        let (mut under, mut over) = (Canvas::default(), Canvas::default());
+        furniture::back(&mut under, &edges, &eye, &self.domain, &removed);
+        furniture::front(&mut over, &edges, &eye, &removed);
+        page.compose(&under, &image, &over)
+    }
+
+    /// Parts and faces as pixels, and the owners that the faces show.
+    fn image(
+        &self,
+        page: &Page,
+        eye: &Eye,
+        owner: Option<Owner<'_>>,
+        removed: &[HalfSpace],
+    ) -> Result<(Vec<u8>, BTreeSet<u32>), PictureError> {
+        // Pictures in pixels, text in pixels of the page.
+        let fine = eye.finer(page.scale);
+        let asked = owner.map(|owner| Asked {
+            owner,
+            volumes: self.volumes.len(),
+            eye: &fine,
+            domain: &self.domain,
+        });
+        let faces = match asked {
+            Some(asked) => face::faces(asked, removed)?,
+            None => Vec::new(),
+        };
+        let mut labels: BTreeSet<u32> = faces.iter().flat_map(face::Face::labels).collect();
+        labels.remove(&OPEN);
+        let drawing = Drawing {
+            objects: self.objects(&faces, &fine, removed),
+            colors: self.volumes.iter().map(|v| self.color(v)).collect(),
+            asked,
+            eye: &fine,
+            line: 0.5 * page.scale,
+        };
+        let [width, height] = page.pixels().map(|pixels| pixels as usize);
+        Ok((raster::draw(&drawing, width, height)?, labels))
     }
 
     /// North arrow, scale bar and legend, below the heading at `top` or in the lowest `strip` pixels.
@@ -204,6 +240,9 @@ impl Scene {
 const MARGIN: f64 = 92.0;
 /// Width of the column with arrow, scale and legend.
 const COLUMN: f64 = 230.0;
+
+/// Room around the domain where there is nothing else.
+const TILE_MARGIN: f64 = 5.0;
 
 /// Where the legend begins in a strip, beside arrow and scale.
 const STRIP_LEFT: f64 = 360.0;
