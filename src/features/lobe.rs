@@ -336,7 +336,10 @@ impl Lobe {
                 // A quarter begins where the one before it ends.
                 for k in usize::from(quarter > 0)..5 {
                     let sum_of = |of: &[[f64; 4]], around: &[[f64; 5]]| {
-                        let terms = of.iter().zip(around).map(|(of, around)| of[row] * around[k]);
+                        let terms = of
+                            .iter()
+                            .zip(around)
+                            .map(|(of, around)| of[row] * around[k]);
                         terms.sum::<f64>()
                     };
                     let x = 0.5 * self.design.length * sum_of(&x, &[ww, cw]);
@@ -369,9 +372,7 @@ fn bernstein(powers: [f64; 4]) -> [f64; 4] {
 /// Of a quarter of the unit circle, c/w and s/w, turned (rad): the Bernstein coefficients of w², c w, s w, c s and c².
 fn products(quarter: usize, turn: f64) -> [[f64; 5]; 5] {
     let turned = DVec2::from_angle(turn);
-    let corner = |k: usize| {
-        turned.rotate([DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y][k % 4])
-    };
+    let corner = |k: usize| turned.rotate([DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y][k % 4]);
     let (from, to) = (corner(quarter), corner(quarter + 1));
     let middle = (from + to) * FRAC_1_SQRT_2;
     let (c, s, w) = (

@@ -255,7 +255,9 @@ fn laid(
         ..design
     };
     let lobe = lobe.build().map_err(|error| error.to_string())?;
-    let shell = lobe.eroding(erosion, lines).map_err(|error| error.to_string())?;
+    let shell = lobe
+        .eroding(erosion, lines)
+        .map_err(|error| error.to_string())?;
     let target = Target {
         height: &|at| Some(floor.height(at)),
         reference: design.center.z,
