@@ -44,7 +44,7 @@ const SINK: f64 = 0.01;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Most of a radius of curvature that a levee may reach over.
 const MOST_OF_RADIUS: f64 = 0.8;
-/// Where two places of a bank come so near each other that levees of both would overlap, what they may take of the distance.
+/// Where two places of a bank come so near each other that levees of both would overlap, what they take of the distance.
 const OF_NECK: f64 = 0.97;
 /// Narrowest levee, in the channel's widths: on a bank where even less is left there is none.
 const NARROWEST: f64 = 0.05;
