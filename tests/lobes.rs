@@ -55,6 +55,35 @@ fn volume(length: f64, width: f64, thickness: f64, taper: f64, skew: f64) -> f64
 }
 
 #[test]
+fn walls_through_the_middle_of_a_lobe_leave_a_half_of_it_and_through_a_round_one_a_quarter() {
+    // Without taper and skew it is the same on both sides of its middle.
+    let whole = volume(300.0, 180.0, 6.0, 0.0, 0.0);
+    for (center, azimuth, width, part) in [
+        ("[250, 0]", 45, 180, 0.5),
+        ("[250, 0]", 90, 180, 0.5),
+        ("[0, 200]", 20, 180, 0.5),
+        ("[500, 400]", 45, 300, 0.25 / 0.6),
+        ("[0, 0]", 0, 300, 0.25 / 0.6),
+    ] {
+        let overrides = [
+            "feature.lobe.taper=0".to_owned(),
+            "feature.lobe.skew=0".to_owned(),
+            format!("feature.lobe.center={center}"),
+            format!("feature.lobe.azimuth_deg={azimuth}"),
+            format!("feature.lobe.width={width}"),
+        ];
+        let built = built(
+            ONE,
+            &overrides.each_ref().map(String::as_str),
+            Engine::Partition,
+        );
+        let found = built.size("lobe") / whole;
+        assert!((found - part).abs() < 1e-5, "{center} {azimuth}: {found}");
+        assert_eq!(built.solids(), 2);
+    }
+}
+
+#[test]
 fn a_lobes_volume_is_that_of_its_closed_form_whatever_its_taper_and_skew() {
     for (taper, skew, azimuth) in [
         (0.5, 0.3, 60),

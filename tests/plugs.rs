@@ -56,6 +56,26 @@ fn a_plugs_section_is_its_fractions_of_the_channels() {
 }
 
 #[test]
+fn the_general_fuse_makes_the_same_plug_in_a_long_channel() {
+    // Its section with the domain's wall is one long spline: planes within such edges were integrated to 1e-5 only.
+    let overrides = [
+        "domain.x=[0, 900]",
+        "domain.y=[0, 300]",
+        "domain.z=[-30, 0]",
+        "feature.channel.width=80",
+        "feature.channel.depth=8",
+        "feature.channel.top=-10",
+        "feature.channel.trajectory={ kind = \"line\", from = [-100, 220], to = [1000, 140] }",
+    ];
+    let [one, other] =
+        [Engine::Partition, Engine::Occt].map(|engine| built(STRAIGHT, &overrides, engine));
+    for name in ["channel", "channel/lag", "channel/plug"] {
+        let (own, its) = (one.size(name), other.size(name));
+        assert!((own / its - 1.0).abs() < 1e-6, "{name}: {own} {its}");
+    }
+}
+
+#[test]
 fn a_plug_that_ends_within_its_channel_has_that_part_of_it() {
     let overrides = ["feature.plug.from=0.25", "feature.plug.to=0.5"];
     let built = built(STRAIGHT, &overrides, Engine::Partition);

@@ -57,10 +57,6 @@ fn a_straight_channel_has_its_sections_area_times_its_length() {
         (HALF_ELLIPSE, FRAC_PI_4),
     ] {
         for more in ["domain.z=[-20, 0]", FLUSH] {
-            // Upright banks at the domain's own top are no crossing that the partition finds.
-            if section == HALF_ELLIPSE && more == FLUSH {
-                continue;
-            }
             let built = built(STRAIGHT, &[section, more], Engine::Partition);
             let share = built.size("channel") / (50.0 * 4.4 * 300.0);
             assert!((share - area).abs() < 1e-9, "{section} {more}: {share}");

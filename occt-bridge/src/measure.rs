@@ -2,8 +2,8 @@
 //!
 //! Integrals are adaptive, to a relative error that the caller states. The kernel's Gauss form, without such an error, is wrong by 4e-5
 //! on spline solids, and with one still by up to 1e-3 where spans of a large face differ much, or where a plane lies within spline
-//! edges, whatever is asked for. So fluxes of [`face_integrals`], and all areas of planes, are by its Gauss–Kronrod form; areas of
-//! other faces have none.
+//! edges, whatever is asked for. So fluxes of [`face_integrals`] are by its Gauss–Kronrod form (areas of the faces have none), and all
+//! of planes by our own integrals along their edges.
 
 use cxx::UniquePtr;
 

@@ -318,10 +318,11 @@ impl Trough {
         let (nu, nv) = (self.base.knots_u().count(), self.base.knots_v().count());
         let knots = self.base.knots_u().as_slice();
         let rise = self.rise();
-        // C1 across the old rims: the speed of a clamped end is p/(knot span) times the first leg.
+        // C1 across the old rims: the speed of a clamped end is p/(knot span) times the first leg, and the ratio of their weights.
+        let weight = |i: usize| self.base.weights()[i * nv];
         let (before, after) = (
-            rise * (knots[p + 1] - knots[p]),
-            rise * (knots[nu] - knots[nu - 1]),
+            rise * (knots[p + 1] - knots[p]) * weight(0) / weight(1),
+            rise * (knots[nu] - knots[nu - 1]) * weight(nu - 1) / weight(nu - 2),
         );
         let scale = 1.0 / p as f64;
         let mut raised = vec![knots[p] - before * scale; p + 1];

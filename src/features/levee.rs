@@ -44,6 +44,8 @@ const SINK: f64 = 0.01;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Most of a radius of curvature that a levee may reach over.
 const MOST_OF_RADIUS: f64 = 0.8;
+/// Where two places of a bank come so near each other that levees of both would overlap, what they take of the distance.
+const OF_NECK: f64 = 0.97;
 /// Narrowest levee, in the channel's widths: on a bank where even less is left there is none.
 const NARROWEST: f64 = 0.05;
 /// How far the bodies of neighbouring bends overlap, in the channel's widths.
@@ -206,9 +208,9 @@ pub fn parts(reach: &Reach, bank: Bank, least_angle: f64) -> Vec<LeveePart> {
 }
 
 impl LeveeDesign {
-    /// The levee along a part of a bank, and a little into its neighbours; `None` where a bend leaves no room for it. Its
-    /// [`Role::Top`]s (outwards and inwards of the crest) and [`Role::Base`] are the rock's, the last side is hidden in the
-    /// channel.
+    /// The levee along a part of a bank, and a little into its neighbours, narrower where a bend leaves less room, or two of its places
+    /// lie at a neck; `None` where there is no room. Its [`Role::Top`]s (outwards and inwards of the crest) and [`Role::Base`] are the
+    /// rock's, the last side is hidden in the channel.
     pub fn build(&self, reach: &Reach, part: &LeveePart) -> Result<Option<Shell>, LeveeError> {
         for (name, value, most) in [
             ("toe", self.toe, 1.0),
@@ -229,6 +231,30 @@ impl LeveeDesign {
         if !(1..=MOST_TAPER).contains(&self.taper) {
             return Err(LeveeError::Taper(self.taper));
         }
+        let mut narrower = 1.0;
+        loop {
+            let made = self.narrowed(reach, part, narrower);
+            // How much narrower is not known beforehand: the channel's own width does not change.
+            if let Err(LeveeError::Extrusion(error)) = &made
+                && let ExtrusionError::Neck {
+                    distance, needed, ..
+                } = **error
+                && narrower > NARROWEST
+            {
+                narrower *= OF_NECK * distance / needed;
+            } else {
+                return made;
+            }
+        }
+    }
+
+    /// The levee along a part of a bank, narrower by a factor than it would be.
+    fn narrowed(
+        &self,
+        reach: &Reach,
+        part: &LeveePart,
+        narrower: f64,
+    ) -> Result<Option<Shell>, LeveeError> {
         let length = reach.trajectory().length();
         let overlap = 0.5 * OVERLAP * reach.station(0.5).width;
         let ends = [
@@ -238,7 +264,7 @@ impl LeveeDesign {
         for k in 0..=CHECKS {
             let fraction = ends[0] + (ends[1] - ends[0]) * k as f64 / CHECKS as f64;
             let station = reach.station(fraction);
-            let size = self.size(&station, part)?;
+            let size = self.size(&station, part, narrower)?;
             if size.width <= NARROWEST * station.width {
                 return Ok(None);
             }
@@ -249,7 +275,7 @@ impl LeveeDesign {
             KnotVector::uniform(self.taper, self.taper + 1)?.into(),
             KnotVector::uniform(1, 2)?.into(),
         ];
-        let template = |station: &Station| Ok(self.size(station, part)?.sheets(station));
+        let template = |station: &Station| Ok(self.size(station, part, narrower)?.sheets(station));
         let sheets = reach
             .sheets(&of_reach, &across, &template)
             .map_err(Box::new)?;
@@ -271,7 +297,7 @@ impl LeveeDesign {
         Ok(Some(tube.continued(beyond)?.close()?))
     }
 
-    fn size(&self, station: &Station, part: &LeveePart) -> Result<Size, LeveeError> {
+    fn size(&self, station: &Station, part: &LeveePart, narrower: f64) -> Result<Size, LeveeError> {
         let fraction = station.fraction;
         let [smaller, back] = if part.number % 2 == 1 {
             INSET
@@ -304,7 +330,7 @@ impl LeveeDesign {
         let inward = (-side * station.place.curvature).max(0.0);
         let sharp = (inward / MOST_OF_RADIUS).powi(4);
         let room = ((width + half).powi(-4) + sharp).powf(-0.25) - half;
-        let width = if inward > 0.0 { room } else { width };
+        let width = narrower * if inward > 0.0 { room } else { width };
         let bodies = 2 * part.number + usize::from(part.bank == Bank::Right);
         let spread = (0.5 + GOLDEN * bodies as f64).fract() + (part.number % 2) as f64;
         Ok(Size {

@@ -150,6 +150,25 @@ fn where_a_bend_leaves_no_room_there_is_no_levee() {
 }
 
 #[test]
+fn at_a_neck_a_levee_is_narrower_than_along_half_of_the_bend() {
+    // Most of a circle to the left: its ends are 124 m apart, and lie on each other's inner side.
+    let arc = |t: f64| 120.0 * DVec2::from_angle(t);
+    let (_, reach) = along(design(), Trajectory::parametric(&arc, [0.0, 5.2]).unwrap());
+    let length = reach.trajectory().length();
+    // How far from the channel's axis its toe is where it begins.
+    let reaches = [length, 0.5 * length].map(|to| {
+        let built = levee().build(&reach, &part(Bank::Left, 0, [0.0, to]));
+        let shell = built.unwrap().unwrap();
+        let top = shell.sheet(Role::Top).unwrap();
+        let (toe, start) = (top.knots_u().domain().1, top.knots_v().domain().0);
+        120.0 - top.point(toe, start).truncate().length()
+    });
+    // Half of the bend is as wide as the law says, 69.5 m and the crest's way from the rim; twice that is more than the ends are apart.
+    assert!((reaches[1] - 70.5).abs() < 0.3, "{reaches:?}");
+    assert!(reaches[0] > 52.0 && reaches[0] < 67.0, "{reaches:?}");
+}
+
+#[test]
 fn bodies_of_neighbouring_bends_overlap_and_lie_within_each_other() {
     let (_, reach) = along(design(), meander());
     let own = parts(&reach, Bank::Left, 0.3);

@@ -9,14 +9,14 @@
 //! τ tapers the plan (0 is an ellipse; above 0 it is widest downstream), λ skews the thickness (above 0 it is thickest upstream).
 //! The plan's area is π a b, the volume (π/2) a b H (1 − λτ/6).
 //!
-//! The cap is exact: a quarter of the circle is c(v)/w(v), s(v)/w(v) with quadratic c, s, w. Lines of v run from a pole at X = p on the
-//! axis (the middle, unless something else is asked for) straight to the circle, X = p (1 − u) + u c/w and Y = u s/w. So with W = w² the
-//! homogeneous coordinates
+//! The cap is exact: a quarter of the circle is c(v)/w(v), s(v)/w(v) with quadratic c, s, w. Lines of v run from a pole at (p, q)
+//! (the middle, unless something else is asked for) straight to the circle, X = p (1 − u) + u c/w and Y = q (1 − u) + u s/w. So with
+//! W = w² the homogeneous coordinates
 //!
 //! ```text
 //! x W = a (p (1 − u) w² + u c w)
-//! y W = b (u s w + τ (p u (1 − u) s w + u² c s))
-//! z W = base w² + H (1 − u) (A w − 2 p u c)(B w − λ u c),   A = 1 + u − p² (1 − u),   B = 1 − λ p (1 − u)
+//! y W = b (q (1 − u) w + u s)(w + τ (p (1 − u) w + u c))
+//! z W = base w² + H (1 − u) (A w − 2 u (p c + q s))(B w − λ u c),   A = 1 + u − (p² + q²)(1 − u),   B = 1 − λ p (1 − u)
 //! ```
 //!
 //! are polynomials of degree 3 in u and 4 in v. Cap and base share the rim's control points; both have the pole.
@@ -58,6 +58,24 @@ pub struct LobeDesign {
     pub skew: f64,
 }
 
+/// Where the lines are along which a lobe's sheets are parametrized. The lobe is the same whatever they are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LobeLines {
+    /// The pole (X, Y) on the unit disc, from which they run to the rim.
+    pub pole: DVec2,
+    /// By how much the seam, and the three other lines at which sheets are less smooth, are turned about the middle (rad).
+    pub turn: f64,
+}
+
+impl LobeLines {
+    /// Away from all that symmetry prefers: a wall through the middle of a lobe, along its axis or across, would pass through its
+    /// pole and run along its seam.
+    pub const ASIDE: Self = Self {
+        pole: DVec2::new(0.137, 0.211),
+        turn: 0.571,
+    };
+}
+
 /// A lobe that is possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lobe {
@@ -87,8 +105,8 @@ pub enum LobeError {
         value: f64,
     },
     /// A pole beyond the rim.
-    #[error("the lobe's pole is at {0} of half its length: keep it between −1 and 1")]
-    Pole(f64),
+    #[error("the lobe's pole is at {0} on the disc of radius 1: keep it within that")]
+    Pole(DVec2),
     /// A place or a direction that is none.
     #[error("the lobe's centre {center} and azimuth {azimuth} must be finite")]
     Place {
@@ -238,26 +256,21 @@ impl Lobe {
 
     /// Its closed shell: [`Role::Top`], the cap, and [`Role::Base`], u from the pole to the rim.
     pub fn shell(&self) -> Result<Shell, LobeError> {
-        self.with(0.0, 0.0)
+        self.along(LobeLines::default())
+    }
+
+    /// The same along other lines: with its pole where nothing passes by, since next to a pole curves are hard to follow.
+    pub fn along(&self, lines: LobeLines) -> Result<Shell, LobeError> {
+        self.eroding(0.0, lines)
     }
 
     /// The same of a lobe that erodes what it lies on: its base is as much deeper than its rim as a fraction of its thickness says.
-    pub fn eroding(&self, erosion: f64) -> Result<Shell, LobeError> {
-        self.with(erosion, 0.0)
-    }
-
-    /// The same with its pole elsewhere on the axis, at X between −1 and 1: where nothing passes by, since next to a pole curves
-    /// are hard to follow.
-    pub fn shell_about(&self, pole: f64) -> Result<Shell, LobeError> {
-        self.with(0.0, pole)
-    }
-
-    fn with(&self, erosion: f64, pole: f64) -> Result<Shell, LobeError> {
+    pub fn eroding(&self, erosion: f64, lines: LobeLines) -> Result<Shell, LobeError> {
         // Written so that a number that is none fails too.
-        if !(pole.abs() < 1.0) {
-            return Err(LobeError::Pole(pole));
+        if !(lines.pole.length() < 1.0) {
+            return Err(LobeError::Pole(lines.pole));
         }
-        let (net, weights) = self.cap(pole);
+        let (net, weights) = self.cap(lines);
         let around: Vec<f64> = (0..=4)
             .flat_map(|quarter| {
                 let times = if quarter % 4 == 0 { 5 } else { 4 };
@@ -276,12 +289,16 @@ impl Lobe {
     }
 
     /// Control points and weights of the cap: 4 along u, 17 around.
-    fn cap(&self, pole: f64) -> (Vec<DVec3>, Vec<f64>) {
+    fn cap(&self, lines: LobeLines) -> (Vec<DVec3>, Vec<f64>) {
         let LobeDesign { taper, skew, .. } = self.design;
-        // Polynomials in u, by their powers: 1 − u, A, B.
+        let DVec2 { x: p, y: q } = lines.pole;
+        let square = lines.pole.length_squared();
+        // Polynomials in u, by their powers: u, 1 − u, A, B, and what the taper makes of the width on the way from the pole.
+        let u = [0.0, 1.0];
         let inward = [1.0, -1.0];
-        let wide = [1.0 - pole * pole, 1.0 + pole * pole];
-        let thick = [1.0 - skew * pole, skew * pole];
+        let wide = [1.0 - square, 1.0 + square];
+        let thick = [1.0 - skew * p, skew * p];
+        let tapered = [1.0 + taper * p, -taper * p];
         let times = |a: &[f64], b: &[f64]| {
             let mut product = [0.0; 4];
             for (i, a) in a.iter().enumerate() {
@@ -291,29 +308,43 @@ impl Lobe {
             }
             product
         };
-        let u = [0.0, 1.0];
         let scaled = |a: [f64; 4], factor: f64| a.map(|power| factor * power);
         let sum = |a: [f64; 4], b: [f64; 4]| std::array::from_fn(|i| a[i] + b[i]);
-        let [x_ww, x_cw] = [scaled(times(&inward, &[1.0]), pole), times(&u, &[1.0])];
-        let y_sw = sum(x_cw, scaled(times(&u, &inward), taper * pole));
-        let y_cs = scaled(times(&u, &u), taper);
-        let z_ww = times(&times(&inward, &wide)[..3], &thick);
-        let z_cw = sum(
-            scaled(times(&times(&inward, &u)[..3], &wide), -skew),
-            scaled(times(&times(&inward, &u)[..3], &thick), -2.0 * pole),
-        );
-        let z_cc = scaled(times(&times(&inward, &u)[..3], &u), 2.0 * pole * skew);
-        let radial = [x_ww, x_cw, y_sw, y_cs, z_ww, z_cw, z_cc].map(bernstein);
+        let both = times(&inward, &u);
+        let x = [scaled(times(&inward, &[1.0]), p), times(&u, &[1.0])];
+        let y = [
+            scaled(times(&inward, &tapered), q),
+            scaled(both, q * taper),
+            times(&u, &tapered),
+            scaled(times(&u, &u), taper),
+        ];
+        let z = [
+            times(&times(&inward, &wide)[..3], &thick),
+            sum(
+                scaled(times(&both[..3], &wide), -skew),
+                scaled(times(&both[..3], &thick), -2.0 * p),
+            ),
+            scaled(times(&both[..3], &thick), -2.0 * q),
+            scaled(times(&both[..3], &u), 2.0 * q * skew),
+            scaled(times(&both[..3], &u), 2.0 * p * skew),
+        ];
+        let (x, y, z) = (x.map(bernstein), y.map(bernstein), z.map(bernstein));
         let (mut net, mut weights) = (Vec::with_capacity(68), Vec::with_capacity(68));
         for row in 0..4 {
-            let [x_ww, x_cw, y_sw, y_cs, z_ww, z_cw, z_cc] = radial.map(|one| one[row]);
             for quarter in 0..4 {
-                let [ww, cw, sw, cs, cc] = products(quarter);
+                let [ww, cw, sw, cs, cc] = products(quarter, lines.turn);
                 // A quarter begins where the one before it ends.
                 for k in usize::from(quarter > 0)..5 {
-                    let x = 0.5 * self.design.length * (x_ww * ww[k] + x_cw * cw[k]);
-                    let y = 0.5 * self.design.width * (y_sw * sw[k] + y_cs * cs[k]);
-                    let z = self.height * (z_ww * ww[k] + z_cw * cw[k] + z_cc * cc[k]);
+                    let sum_of = |of: &[[f64; 4]], around: &[[f64; 5]]| {
+                        let terms = of
+                            .iter()
+                            .zip(around)
+                            .map(|(of, around)| of[row] * around[k]);
+                        terms.sum::<f64>()
+                    };
+                    let x = 0.5 * self.design.length * sum_of(&x, &[ww, cw]);
+                    let y = 0.5 * self.design.width * sum_of(&y, &[ww, cw, sw, cs]);
+                    let z = self.height * sum_of(&z, &[ww, cw, sw, cs, cc]);
                     // The rim is at the base's elevation to the last bit.
                     let z = if row == 3 { 0.0 } else { z / ww[k] };
                     let plan = (self.axis * x + self.axis.perp() * y) / ww[k];
@@ -338,9 +369,10 @@ fn bernstein(powers: [f64; 4]) -> [f64; 4] {
     [a, a + b / 3.0, a + 2.0 * b / 3.0 + c / 3.0, a + b + c + d]
 }
 
-/// Of a quarter of the unit circle, c/w and s/w: the Bernstein coefficients of w², c w, s w, c s and c².
-fn products(quarter: usize) -> [[f64; 5]; 5] {
-    let corner = |k: usize| [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y][k % 4];
+/// Of a quarter of the unit circle, c/w and s/w, turned (rad): the Bernstein coefficients of w², c w, s w, c s and c².
+fn products(quarter: usize, turn: f64) -> [[f64; 5]; 5] {
+    let turned = DVec2::from_angle(turn);
+    let corner = |k: usize| turned.rotate([DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y][k % 4]);
     let (from, to) = (corner(quarter), corner(quarter + 1));
     let middle = (from + to) * FRAC_1_SQRT_2;
     let (c, s, w) = (

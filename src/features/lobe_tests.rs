@@ -16,6 +16,26 @@ const LOBE: LobeDesign = LobeDesign {
     skew: 0.7,
 };
 
+const LINES: [LobeLines; 5] = [
+    LobeLines {
+        pole: DVec2::ZERO,
+        turn: 0.0,
+    },
+    LobeLines {
+        pole: DVec2::new(-0.86, 0.0),
+        turn: 0.0,
+    },
+    LobeLines {
+        pole: DVec2::new(0.6, 0.0),
+        turn: 1.3,
+    },
+    LobeLines {
+        pole: DVec2::new(-0.3, -0.7),
+        turn: 0.0,
+    },
+    LobeLines::ASIDE,
+];
+
 /// (X, Y) of a place, by its angle from the axis.
 fn disc(design: &LobeDesign, p: DVec3) -> DVec2 {
     let d = p - design.center;
@@ -49,8 +69,8 @@ fn every_point_of_the_cap_satisfies_the_equation() {
 #[test]
 fn cap_and_base_share_the_rim_to_the_last_bit_and_both_have_a_pole() {
     let lobe = LOBE.build().unwrap();
-    for pole in [0.0, -0.86, 0.3] {
-        let shell = lobe.shell_about(pole).unwrap();
+    for lines in LINES {
+        let shell = lobe.along(lines).unwrap();
         let [top, base] = [Role::Top, Role::Base].map(|role| shell.sheet(role).unwrap());
         assert_eq!(top.net()[3 * 17..], base.net()[3 * 17..]);
         assert!(top.net()[3 * 17..].iter().all(|p| p.z == -20.0));
@@ -58,14 +78,16 @@ fn cap_and_base_share_the_rim_to_the_last_bit_and_both_have_a_pole() {
             assert!(net[..17].iter().all(|p| *p == net[0]));
         }
     }
-    assert!(lobe.shell_about(1.0).is_err() && lobe.shell_about(f64::NAN).is_err());
+    for pole in [DVec2::X, DVec2::new(0.8, -0.7), DVec2::new(0.0, f64::NAN)] {
+        assert!(lobe.along(LobeLines { pole, turn: 0.0 }).is_err());
+    }
 }
 
 #[test]
-fn wherever_the_pole_is_the_cap_is_the_same() {
+fn wherever_the_pole_and_the_seam_are_the_cap_is_the_same() {
     let lobe = LOBE.build().unwrap();
-    for pole in [-0.86, -0.3, 0.6] {
-        let shell = lobe.shell_about(pole).unwrap();
+    for lines in LINES {
+        let shell = lobe.along(lines).unwrap();
         let top = shell.sheet(Role::Top).unwrap();
         for i in 0..=40 {
             for j in 0..=97 {
@@ -73,12 +95,16 @@ fn wherever_the_pole_is_the_cap_is_the_same() {
                 let p = top.point(u, v);
                 let at = disc(&LOBE, p);
                 let height = lobe.height * (1.0 - at.length_squared()) * (1.0 - 0.7 * at.x);
-                assert!((p.z + 20.0 - height).abs() < 1e-11, "{u} {v} {pole}");
+                assert!((p.z + 20.0 - height).abs() < 1e-11, "{u} {v} {lines:?}");
                 // Straight in the disc, from the pole to the circle.
                 let rim = disc(&LOBE, top.point(1.0, v));
                 assert!((rim.length() - 1.0).abs() < 1e-12);
-                let wanted = DVec2::new(pole, 0.0).lerp(rim, u);
-                assert!((at - wanted).length() < 1e-11, "{u} {v} {pole}");
+                if j == 0 {
+                    let seam = DVec2::from_angle(lines.turn);
+                    assert!((rim - seam).length() < 1e-12, "{rim} {lines:?}");
+                }
+                let wanted = lines.pole.lerp(rim, u);
+                assert!((at - wanted).length() < 1e-11, "{u} {v} {lines:?}");
             }
         }
     }

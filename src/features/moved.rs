@@ -17,6 +17,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use super::body::{Body, Role};
 use super::displace::{DisplaceError, Displacement};
 use super::horizon::{Horizon, HorizonError};
+use super::imported::ImportError;
 use super::motion::{Motion, Motions};
 use super::net::fold_in_plan;
 use super::relief::{self, ReliefError};
@@ -49,6 +50,14 @@ pub enum MoveError {
     /// A sheet is no surface.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// A solid of another program cannot be placed there.
+    #[error(transparent)]
+    Imported(#[from] ImportError),
+    /// A solid of another program would be bent.
+    #[error(
+        "a solid from a file can be shifted, but not bent or turned; list it after what moves it, or let that be slip on a plane that is the same everywhere"
+    )]
+    Rigid,
     /// Sheets do not close.
     #[error(transparent)]
     Shell(#[from] ShellError),
@@ -123,8 +132,14 @@ impl Body {
                 Self::Ellipsoid(ellipsoid) => {
                     return Ok((Self::Ellipsoid(ellipsoid.moved(by)), 0.0));
                 }
+                Self::Imported(imported) => {
+                    return Ok((Self::Imported(Arc::new(imported.moved(by)?)), 0.0));
+                }
                 Self::Shell(_) | Self::Side(_) => {}
             }
+        }
+        if let Self::Imported(_) = self {
+            return Err(MoveError::Rigid);
         }
         if let Self::Side(side) = self {
             let (side, deviation) = side.after(motions, domain, tolerance, reliefs)?;

@@ -3,8 +3,10 @@
 //! A splay's upstream end is inside the channel, which is younger and takes what lies there below its own top; its base is a
 //! little below that top, as deep as the flood eroded. What it has above that top stays, over the channel too.
 
+use glam::DVec2;
+
 use super::levee::Bank;
-use super::lobe::{LobeDesign, LobeError};
+use super::lobe::{LobeDesign, LobeError, LobeLines};
 use super::reach::{Reach, Station};
 use super::shell::Shell;
 use super::trajectory::{Place, azimuth_vector};
@@ -46,7 +48,11 @@ impl SplayDesign {
         let way = self.inside(&reach.station(self.at));
         // X runs from −1 to 1 over the length.
         let pole = 2.0 * POLE * way / self.length - 1.0;
-        self.lobe(reach).build()?.shell_about(pole.min(0.0))
+        let lines = LobeLines {
+            pole: DVec2::new(pole.min(0.0), 0.0),
+            turn: 0.0,
+        };
+        self.lobe(reach).build()?.along(lines)
     }
 
     /// How far inside of the rim it begins, along its axis (m).

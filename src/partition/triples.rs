@@ -11,9 +11,15 @@ use super::common::Common;
 use super::crossings::{Crossing, MATCH, Settings, Triple};
 use super::heights::Heights;
 use super::hermite;
-use super::pair::Tolerances;
+use super::pair::{Pair, Tolerances};
 use super::pierce::{Piercing, Root, Segment, meets};
 use super::region::Regions;
+
+/// A curve of nearly parallel sheets is as near to both as it should be, and farther from its place by the sine of the angle between
+/// them: by so many times its deviation …
+const ASIDE: f64 = 8.0;
+/// … and never by more than this fraction of the domain's size.
+const FARTHEST: f64 = 1e-5;
 
 /// Where a stretch is asked on which side of a region it is. It lies on one; but the side of open sheets may change
 /// unseen where it does not matter, so more than one place is asked.
@@ -225,7 +231,18 @@ impl<'a> Thirds<'a> {
             point,
             q,
         };
-        (near && distance < MATCH * tolerances.scale).then_some(triple)
+        let is_on = distance < MATCH * tolerances.scale || distance < self.beside(q);
+        (near && is_on).then_some(triple)
+    }
+
+    /// How far the branch may be from its place, with these parameters on its sheets (m).
+    fn beside(&self, q: [f64; 4]) -> f64 {
+        let sheets = self.crossing.sheets.map(|at| &self.regions.sheets[at]);
+        let Some(node) = Pair::new(sheets, self.tolerances).node(q, None) else {
+            return 0.0;
+        };
+        let off = self.crossing.branch.deviation.max(self.tolerances.curve) / node.sine;
+        (ASIDE * off).min(FARTHEST * self.tolerances.scale)
     }
 }
 

@@ -13,6 +13,7 @@ mod newcomer;
 mod points;
 mod real_data;
 mod section;
+mod shallow;
 mod spline;
 #[path = "../assembled/underlined.rs"]
 mod underlined;

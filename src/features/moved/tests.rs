@@ -83,7 +83,12 @@ fn wrong(before: &Side, after: &Side, motions: &Motions, within: f64) -> u32 {
 fn shifted_horizons_are_horizons_and_nothing_is_off() {
     let by = DVec3::new(13.0, -7.5, -20.0);
     let (moved, deviation) = side(-20.0)
-        .after(&Motions::from(Motion::Shift(by)), [LOW, HIGH], 1e-3, &Reliefs::default())
+        .after(
+            &Motions::from(Motion::Shift(by)),
+            [LOW, HIGH],
+            1e-3,
+            &Reliefs::default(),
+        )
         .unwrap();
     assert_eq!(deviation, 0.0);
     let sheet = moved.plan().unwrap();
@@ -95,7 +100,12 @@ fn shifted_horizons_are_horizons_and_nothing_is_off() {
     assert_eq!(moved.role(), Role::Open("horizon"));
     let level = Arc::new(Side::horizon(Horizon::flat(-10.0).unwrap(), LOW, HIGH).unwrap());
     let (moved, _) = level
-        .after(&Motions::from(Motion::Shift(by)), [LOW, HIGH], 1e-3, &Reliefs::default())
+        .after(
+            &Motions::from(Motion::Shift(by)),
+            [LOW, HIGH],
+            1e-3,
+            &Reliefs::default(),
+        )
         .unwrap();
     assert_eq!(moved.level(), Some(-30.0));
 }
@@ -104,7 +114,9 @@ fn shifted_horizons_are_horizons_and_nothing_is_off() {
 fn beds_keep_their_thickness_by_vertical_shear_to_rounding() {
     let motions = rollover();
     let horizons = [-20.0, -31.5].map(|level| {
-        let (moved, deviation) = side(level).after(&motions, [LOW, HIGH], 0.01, &Reliefs::default()).unwrap();
+        let (moved, deviation) = side(level)
+            .after(&motions, [LOW, HIGH], 0.01, &Reliefs::default())
+            .unwrap();
         assert!(deviation > 1e-6 && deviation <= 0.01, "{deviation}");
         assert_eq!(wrong(&side(level), &moved, &motions, 0.012), 0);
         moved
@@ -122,7 +134,9 @@ fn upright_folds_leave_heights_and_tight_ones_overhang() {
         [(90.0, 0.3, true), (70.0, 0.3, true), (20.0, 8.0, false)]
     {
         let motions = fold(axial_dip, tightness);
-        let (moved, deviation) = side(-20.0).after(&motions, [LOW, HIGH], 0.02, &Reliefs::default()).unwrap();
+        let (moved, deviation) = side(-20.0)
+            .after(&motions, [LOW, HIGH], 0.02, &Reliefs::default())
+            .unwrap();
         assert!(deviation <= 0.02, "{axial_dip}: {deviation}");
         assert_eq!(moved.plan().is_some(), is_plan, "{axial_dip}");
         assert_eq!(wrong(&side(-20.0), &moved, &motions, 0.2), 0, "{axial_dip}");
@@ -150,7 +164,9 @@ fn tilted_levels_are_planes() {
     let level = Arc::new(Side::horizon(Horizon::flat(-10.0).unwrap(), LOW, HIGH).unwrap());
     let motions =
         Motions::from(Affine::tilt(DVec3::new(50.0, 0.0, -10.0), 0.2, FRAC_PI_2).unwrap());
-    let (moved, deviation) = level.after(&motions, [LOW, HIGH], 1e-3, &Reliefs::default()).unwrap();
+    let (moved, deviation) = level
+        .after(&motions, [LOW, HIGH], 1e-3, &Reliefs::default())
+        .unwrap();
     assert_eq!(deviation, 0.0);
     for k in 0..50 {
         let at = place(k).truncate();
@@ -158,7 +174,9 @@ fn tilted_levels_are_planes() {
         assert!((moved.height(at).unwrap() - wanted).abs() < 1e-10);
     }
     // A bent one is looked for along upright lines.
-    let (moved, deviation) = side(-20.0).after(&motions, [LOW, HIGH], 0.005, &Reliefs::default()).unwrap();
+    let (moved, deviation) = side(-20.0)
+        .after(&motions, [LOW, HIGH], 0.005, &Reliefs::default())
+        .unwrap();
     assert!(deviation <= 0.005 && moved.plan().is_some());
     assert_eq!(wrong(&side(-20.0), &moved, &motions, 0.01), 0);
 }
@@ -226,7 +244,9 @@ fn bodies_keep_their_volumes_within_the_deviation() {
             (fold(30.0, 3.0), 0.1),
             (tilt, 0.02),
         ] {
-            let (moved, deviation) = body.moved(&motions, [LOW, HIGH], tolerance, &Reliefs::default()).unwrap();
+            let (moved, deviation) = body
+                .moved(&motions, [LOW, HIGH], tolerance, &Reliefs::default())
+                .unwrap();
             assert!(deviation <= tolerance, "{deviation}");
             let Body::Shell(shell) = moved else {
                 unreachable!()
@@ -260,7 +280,9 @@ fn what_is_shifted_stays_what_it_was() {
         plunge: 0.2,
     };
     let body = Body::Ellipsoid(design.build().unwrap());
-    let (moved, deviation) = body.moved(&motions, [LOW, HIGH], 1e-3, &Reliefs::default()).unwrap();
+    let (moved, deviation) = body
+        .moved(&motions, [LOW, HIGH], 1e-3, &Reliefs::default())
+        .unwrap();
     let Body::Ellipsoid(ellipsoid) = moved else {
         unreachable!()
     };
@@ -268,7 +290,9 @@ fn what_is_shifted_stays_what_it_was() {
         (ellipsoid.center(), deviation),
         (DVec3::new(6.0, 8.0, -4.0), 0.0)
     );
-    let (same, _) = body.moved(&Motions::none(), [LOW, HIGH], 1e-3, &Reliefs::default()).unwrap();
+    let (same, _) = body
+        .moved(&Motions::none(), [LOW, HIGH], 1e-3, &Reliefs::default())
+        .unwrap();
     assert_eq!(same, body);
 }
 
@@ -281,7 +305,9 @@ fn a_fault_that_a_younger_one_displaces_is_two_planes() {
     let motions = Motions::from(Motion::Shift(slip));
     let [low, high] = motions.before([LOW, HIGH]);
     let side = Arc::new(Arc::new(older.clone()).side(low, high, 30.0).unwrap());
-    let (moved, deviation) = side.after(&motions, [LOW, HIGH], 1e-3, &Reliefs::default()).unwrap();
+    let (moved, deviation) = side
+        .after(&motions, [LOW, HIGH], 1e-3, &Reliefs::default())
+        .unwrap();
     assert_eq!(deviation, 0.0);
     let normal = older.normal(LOW);
     for k in 0..300 {

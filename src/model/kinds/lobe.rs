@@ -17,7 +17,7 @@ use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Wit
 use crate::model::read::{Any, Field};
 use crate::model::references::Reference;
 use crate::model::values::limits::{ANY, Limits};
-use crate::model::values::lobe::{LobeShape, thin_rims, with_shape};
+use crate::model::values::lobe::{LobeShape, lines_by_age, thin_rims, with_shape};
 use crate::model::values::quantity::Quantity;
 
 const SINK: Limits = Limits {
@@ -157,7 +157,7 @@ impl Kind for LobeSpec {
         };
         let shell = design
             .build()
-            .and_then(|lobe| lobe.shell())
+            .and_then(|lobe| lobe.along(lines_by_age(site.nudge)))
             .map_err(|error| ("impossible lobe", error.to_string()))?;
         Ok(Made::of(vec![Part {
             drawn: draws.taken(),

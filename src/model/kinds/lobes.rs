@@ -11,7 +11,7 @@ use crate::features::body::Body;
 use crate::features::conform::{Target, conform};
 use crate::features::fabric::{Fabric, mean_slope};
 use crate::features::horizon::Horizon;
-use crate::features::lobe::{Lobe, LobeDesign};
+use crate::features::lobe::{Lobe, LobeDesign, LobeLines};
 use crate::features::shell::Shell;
 use crate::features::stacking::{Pile, Region, Stack, filled};
 use crate::features::trajectory::azimuth_vector;
@@ -21,7 +21,7 @@ use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
 use crate::model::tree::{NodeId, Value};
 use crate::model::values::limits::{Limits, NOT_NEGATIVE};
-use crate::model::values::lobe::{LobeShape, thin_rims, with_shape};
+use crate::model::values::lobe::{LobeShape, lines_by_age, thin_rims, with_shape};
 use crate::model::values::quantity::Quantity;
 
 /// The most lobes of one set.
@@ -157,6 +157,7 @@ impl Kind for LobesSpec {
         let erosion = draws.quantity(&self.erosion, "erosion")?;
         let datum = |at: DVec2| unit.height(at.x, at.y);
         let region = self.region_in(site)?;
+        let lines = lines_by_age(site.nudge);
         let mut pile = Pile::new(&datum);
         let mut stack: Option<Stack> = None;
         let mut parts = Vec::with_capacity(self.count);
@@ -173,7 +174,7 @@ impl Kind for LobesSpec {
                 ),
             };
             let center = next_center(stack, &shape, compensation, number, draws)?;
-            let (lobe, shell, slope) = laid(shape.with_center(center), &mut pile, erosion)
+            let (lobe, shell, slope) = laid(shape.with_center(center), &mut pile, (erosion, lines))
                 .map_err(|message| ("impossible lobe", format!("lobe {number}: {message}")))?;
             let body = if erosion > 0.0 {
                 shell
@@ -238,7 +239,7 @@ fn next_center(
 fn laid(
     design: LobeDesign,
     pile: &mut Pile<'_>,
-    erosion: f64,
+    (erosion, lines): (f64, LobeLines),
 ) -> Result<(Lobe, Shell, DVec2), String> {
     let plan = design.build().map_err(|error| error.to_string())?.plan();
     let margin = MARGIN * (plan[1] - plan[0]);
@@ -254,7 +255,9 @@ fn laid(
         ..design
     };
     let lobe = lobe.build().map_err(|error| error.to_string())?;
-    let shell = lobe.eroding(erosion).map_err(|error| error.to_string())?;
+    let shell = lobe
+        .eroding(erosion, lines)
+        .map_err(|error| error.to_string())?;
     let target = Target {
         height: &|at| Some(floor.height(at)),
         reference: design.center.z,

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::limits::{AZIMUTH, Limits, POSITIVE};
 use super::quantity::Quantity;
 use crate::features::body::{Body, Role};
-use crate::features::lobe::LobeDesign;
+use crate::features::lobe::{LobeDesign, LobeLines};
 use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::kinds::keys::Keys;
@@ -28,6 +28,15 @@ const SHAPE: Limits = Limits {
     open: false,
     words: "must lie between -0.9 and 0.9",
 };
+
+/// The lines of lobes whose contacts coincide and are decided by age (m): away from whatever would run along them.
+pub(crate) fn lines_by_age(nudge: f64) -> LobeLines {
+    if nudge == 0.0 {
+        LobeLines::default()
+    } else {
+        LobeLines::ASIDE
+    }
+}
 
 /// The shape of a lobe.
 #[derive(Clone, Debug, PartialEq)]

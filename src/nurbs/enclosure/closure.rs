@@ -136,7 +136,19 @@ fn same(a: &Edge, b: &Edge, tolerance: f64) -> bool {
     same_parameters(a, b, tolerance)
         || same_parameters(a, &b.reversed(), tolerance)
         || a.proportion(b, tolerance).is_some()
-        || (covers(a, b, tolerance) && covers(b, a, tolerance))
+        || (may_cover(a, b, tolerance) && covers(a, b, tolerance) && covers(b, a, tolerance))
+}
+
+/// Whether the ends of two curves are the same. Those of closed curves, which may begin anywhere, need not be.
+fn may_cover(a: &Curve, b: &Curve, tolerance: f64) -> bool {
+    let ends = |curve: &Curve| {
+        let (from, to) = curve.domain();
+        [curve.point(from), curve.point(to)]
+    };
+    // Each may go on beyond the other by as much as places on them may differ.
+    let near = |p: DVec3, q: DVec3| p.distance(q) <= 2.0 * tolerance;
+    let ([a, b], [c, d]) = (ends(a), ends(b));
+    (near(a, c) && near(b, d)) || (near(a, d) && near(b, c)) || (near(a, b) && near(c, d))
 }
 
 /// Whether two curves run alike: what edges that were made from one another do.
