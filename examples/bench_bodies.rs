@@ -26,7 +26,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for body in &plan.bodies {
         match &plan.shells[body.shell].body {
             Body::Side(side) => sheets += side.sheets().len(),
-            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) => solids += 1,
+            Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) | Body::Imported(_) => {
+                solids += 1
+            }
         }
     }
     let told = serde_json::json!({ "solids": solids, "sheets": sheets });

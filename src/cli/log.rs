@@ -9,16 +9,17 @@ use super::failure::Failure;
 use super::files;
 use super::load::{self, Loaded};
 use super::print;
+use crate::export::table;
 use crate::export::wells::entries::{WellEntry, Wells};
 use crate::export::wells::gocad::GocadWell;
 use crate::export::wells::las::Las;
 use crate::export::wells::pline;
-use crate::export::{step, table};
 use crate::features::survey::Station;
 use crate::features::well::{Path, Well};
-use crate::model::Place;
+use crate::model::realisation::Realisation;
 use crate::model::wells::log::{Logger, WellLog};
 use crate::model::wells::spec::{METRE, WellSpec};
+use crate::model::{Model, Place};
 use crate::nurbs::interpolate::Parametrization;
 
 /// Tell what the model's wells pass through, or a vertical line anywhere: volumes by measured depth, or a log.
@@ -109,8 +110,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let (Format::Step, Some(path)) = (format, &args.output) {
         let pairs: Vec<_> = chosen.iter().zip(&entries).collect();
         let (model, realisation) = (&loaded.model, &loaded.realisation);
-        return step::write_wells(path, model, realisation, &pairs, step::Protocol::default())
-            .map_err(|error| Failure::Surroundings(error.to_string()));
+        return write_step(path, model, realisation, &pairs);
     }
     let csv = table::csv(&table::wells(&entries))
         .map_err(|error| Failure::Surroundings(error.to_string()))?;
@@ -118,6 +118,31 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Some(path) => files::write(path, csv.as_bytes()),
         None => print::out(csv.trim_end()),
     }
+}
+
+#[cfg(feature = "occt")]
+fn write_step(
+    path: &std::path::Path,
+    model: &Model,
+    realisation: &Realisation,
+    wells: &[(&WellSpec, &WellEntry)],
+) -> Result<(), Failure> {
+    use crate::export::step;
+    step::write_wells(path, model, realisation, wells, step::Protocol::default())
+        .map_err(|error| Failure::Surroundings(error.to_string()))
+}
+
+#[cfg(not(feature = "occt"))]
+fn write_step(
+    path: &std::path::Path,
+    _: &Model,
+    _: &Realisation,
+    _: &[(&WellSpec, &WellEntry)],
+) -> Result<(), Failure> {
+    Err(Failure::Wrong(format!(
+        "{}: STEP is written by a program that is built with OpenCASCADE; this one writes .pl, .wl, .las and .csv",
+        path.display()
+    )))
 }
 
 /// A file of one well.

@@ -34,7 +34,6 @@ pub mod sheets;
 pub mod step;
 #[cfg(feature = "occt")]
 pub mod stl;
-#[cfg(feature = "occt")]
 pub mod table;
 mod text;
 #[cfg(feature = "occt")]

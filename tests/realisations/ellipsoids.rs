@@ -41,7 +41,7 @@ fn ellipsoids(realisation: &Realisation) -> Vec<(DVec3, [DVec3; 3])> {
         .instances
         .iter()
         .filter_map(|one| match &one.body {
-            Body::Trough(_) | Body::Shell(_) | Body::Side(_) => None,
+            Body::Trough(_) | Body::Shell(_) | Body::Side(_) | Body::Imported(_) => None,
             Body::Ellipsoid(ellipsoid) => Some((ellipsoid.center(), ellipsoid.axes())),
         });
     found.collect()

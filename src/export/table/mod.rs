@@ -4,12 +4,16 @@
 
 mod cell;
 mod csv;
+#[cfg(feature = "occt")]
 mod sheets;
 mod wells;
+#[cfg(feature = "occt")]
 mod xlsx;
 
 pub use self::csv::csv;
 pub use cell::{Cell, Sheet};
+#[cfg(feature = "occt")]
 pub use sheets::{VOLUMES, sheets, volumes};
 pub use wells::{WELLS, wells};
+#[cfg(feature = "occt")]
 pub use xlsx::xlsx;

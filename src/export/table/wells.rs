@@ -1,6 +1,7 @@
 //! Tables of wells. Depths are metres.
 
 use super::cell::{Cell, Sheet, columns, text};
+#[cfg(feature = "occt")]
 use crate::export::report::Report;
 use crate::export::wells::entries::{IntervalEntry, WellEntry};
 
@@ -44,6 +45,7 @@ pub fn wells(wells: &[WellEntry]) -> Sheet {
 }
 
 /// A line for each top that was picked in a well.
+#[cfg(feature = "occt")]
 pub(super) fn tops(report: &Report) -> Sheet {
     let length = |value: f64| Cell::Rounded(value, 6);
     Sheet {
