@@ -13,7 +13,7 @@ use super::likes::LIKE;
 use super::{BODY, NODULE, SHOREFACE, TOML};
 
 /// Models that together have every key.
-const GOOD: [(&str, &str); 20] = [
+const GOOD: [(&str, &str); 21] = [
     ("good.toml", TOML),
     ("body.toml", BODY),
     ("nodule.toml", NODULE),
@@ -21,6 +21,7 @@ const GOOD: [(&str, &str); 20] = [
     ("bar.toml", include_str!("bar.toml")),
     ("belt.toml", include_str!("belt.toml")),
     ("clinoform.toml", include_str!("clinoform.toml")),
+    ("folded_beds.toml", include_str!("folded_beds.toml")),
     ("full.toml", include_str!("full.toml")),
     ("kinds.toml", include_str!("kinds.toml")),
     ("lag.toml", include_str!("lag.toml")),
