@@ -241,10 +241,11 @@ impl<'a> Outputs<'a> {
         names.extend(self.write_triangles(staging, built, timings)?);
         // Only shapes whose solids share faces need numbers: parts have names.
         if has_shared {
-            let failed = |error: ExportError| Failure::Surroundings(error.to_string());
-            for sheet in numbers::sheets(report, &built.assembly).map_err(failed)? {
+            let failed = |error: &dyn std::fmt::Display| Failure::Surroundings(error.to_string());
+            let sheets = numbers::sheets(report, &built.assembly);
+            for sheet in sheets.map_err(|error| failed(&error))? {
                 let name = format!("{}.{}.csv", self.stem, sheet.name);
-                let text = table::csv(&sheet).map_err(failed)?;
+                let text = table::csv(&sheet).map_err(|error| failed(&error))?;
                 std::fs::write(staging.join(&name), text)
                     .map_err(|error| Failure::file("write to", &self.folder, &error))?;
                 names.push(name);

@@ -18,7 +18,7 @@ const FOLD_EDITS: &[Edit] = &[
     ("radius = 60\n", "", &["feature \"nappe\" has no `radius`"]),
     ("radius = 60", "radius = ▸0", &["the radius of feature \"nappe\" is 0"]),
     ("limb = 220", "limb = ▸-1", &["the limb of feature \"nappe\" is -1"]),
-    ("limb = 220", "▸limbs = 220", &["unknown key `limbs` in feature \"nappe\"", "limb"]),
+    ("limb = 220", "limb = 220\n▸limbs = 220", &["unknown key `limbs` in feature \"nappe\"", "limb"]),
     ("base_offset = -45", "base_offset = ▸\"low\"", &["for the base_offset of feature \"nappe\""]),
     ("beds = [20, 15, 20]\n", "", &["feature \"nappe\" has no `beds`", "beds = [10, 15, 10]"]),
     ("beds = [20, 15, 20]", "beds = ▸5", &["expected a list of numbers for the beds of feature \"nappe\", found", "the oldest first"]),
