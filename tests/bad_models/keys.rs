@@ -13,7 +13,7 @@ use super::likes::LIKE;
 use super::{BODY, NODULE, SHOREFACE, TOML};
 
 /// Models that together have every key.
-const GOOD: [(&str, &str); 21] = [
+const GOOD: [(&str, &str); 22] = [
     ("good.toml", TOML),
     ("body.toml", BODY),
     ("nodule.toml", NODULE),
@@ -21,11 +21,8 @@ const GOOD: [(&str, &str); 21] = [
     ("bar.toml", include_str!("bar.toml")),
     ("belt.toml", include_str!("belt.toml")),
     ("clinoform.toml", include_str!("clinoform.toml")),
-<<<<<<< HEAD
     ("fault.toml", include_str!("fault.toml")),
-=======
     ("folded_beds.toml", include_str!("folded_beds.toml")),
->>>>>>> b3a0d71ca00e16b6ec24e638d6bfaa280e6455b1
     ("full.toml", include_str!("full.toml")),
     ("kinds.toml", include_str!("kinds.toml")),
     ("lag.toml", include_str!("lag.toml")),
