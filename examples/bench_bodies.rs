@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         match &plan.shells[body.shell].body {
             Body::Side(side) => sheets += side.sheets().len(),
             Body::Trough(_) | Body::Ellipsoid(_) | Body::Shell(_) | Body::Imported(_) => {
-                solids += 1
+                solids += 1;
             }
         }
     }

@@ -118,35 +118,36 @@ impl<'a> History<'a> {
         }
     }
 
-    /// What holds a place after the first entries, and in which block: on which side of each fault it is, where that reaches.
-    fn holder(&self, count: usize, p: DVec3) -> usize {
+    /// What holds a place after the first entries. What a fault moves that ends on the one before it is that one's block, as if it filled all
+    /// of space: of its master it is known on which side the place was (`side`).
+    fn holder(&self, count: usize, p: DVec3, side: Option<bool>) -> usize {
         let Some(at) = count.checked_sub(1) else {
             return BACKGROUND;
         };
-        if let Some((is_above, slip)) = fault(&self.entries[at], p) {
-            let moves = is_above && self.reaches(at, p);
-            return self.holder(at, if moves { p - slip } else { p });
+        let entry = &self.entries[at];
+        if let Some((is_above, slip)) = fault(entry, p) {
+            let is_above = side.unwrap_or(is_above);
+            // Directly before it, so that nothing has moved that one since.
+            let master = at
+                .checked_sub(1)
+                .and_then(|master| fault(&self.entries[master], p));
+            return match (entry, master) {
+                (Entry::Fault(.., Some(wanted)), Some((is_there, _))) => {
+                    if is_there != *wanted {
+                        self.holder(at, p, None)
+                    } else {
+                        let from = if is_above { p - slip } else { p };
+                        self.holder(at, from, Some(*wanted))
+                    }
+                }
+                _ => self.holder(at, if is_above { p - slip } else { p }, None),
+            };
         }
-        let holder = self.holder(at, p);
+        let holder = self.holder(at, p, None);
         let volume = self.volumes[at].unwrap();
         let takes = self.realisation.rules.verdict(volume, holder) == Verdict::Takes
             && self.interiors[volume - 1].contains(p);
         if takes { volume } else { holder }
-    }
-
-    /// Whether a fault that ends on the one before it reaches a place.
-    fn reaches(&self, at: usize, p: DVec3) -> bool {
-        let Entry::Fault(.., Some(wanted)) = self.entries[at] else {
-            return true;
-        };
-        // Directly before it, so that nothing has moved that one since.
-        match at
-            .checked_sub(1)
-            .and_then(|master| fault(&self.entries[master], p))
-        {
-            Some((is_above, _)) => is_above == wanted,
-            None => true,
-        }
     }
 }
 
@@ -195,7 +196,7 @@ proptest! {
             let p = LOW + (HIGH - LOW) * DVec3::from(part);
             let owner = owners.at(p).unwrap();
             let name = faulted.volumes[owner].unfaulted_name();
-            let expected = history.holder(entries.len(), p);
+            let expected = history.holder(entries.len(), p, None);
             prop_assert_eq!(name, &history.realisation.volumes[expected].name, "{:?}\n{}", p, text);
         }
     }

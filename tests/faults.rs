@@ -255,15 +255,13 @@ fn beds_are_younger_where_they_overhang_on_the_side_that_was_up() {
 
 #[test]
 fn round_numbers_are_built() {
-    let beds: String = [-50, -40, -30, -20]
-        .iter()
-        .enumerate()
-        .map(|(at, level)| {
-            format!(
-                "[[feature]]\nid = \"bed-{at}\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = {{ level = {level} }}\n"
-            )
-        })
-        .collect();
+    let bed = |(at, level): (usize, i32)| {
+        format!(
+            "[[feature]]\nid = \"bed-{at}\"\nkind = \"horizon\"\nfacies = \"sand\"\nsurface = {{ level = {level} }}\n"
+        )
+    };
+    let beds = [-50, -40, -30, -20].into_iter().enumerate().map(bed);
+    let beds = beds.collect::<Vec<_>>().concat();
     let head = "name = \"round\"\n[domain]\nx = [0, 400]\ny = [0, 300]\nz = [-60, 0]\nfacies = \"mud\"\n[facies.mud]\n[facies.sand]\n";
     for throw in [5, 10, 20] {
         let fault = format!(

@@ -31,7 +31,8 @@ const ANGLE: f64 = 0.3;
 
 fn built(model: Model) -> Option<Built> {
     let options = Options {
-        engine: Engine::Partition,
+        // What has solids of other programs is made by the general fuse.
+        engine: Engine::Auto,
         child: None,
         threads: 0,
         proof: proof::Level::Fast,

@@ -18,7 +18,7 @@ fn volume(name: &str, feature: &str, kind: &str) -> VolumeRules {
         above: None,
         piece_of: None,
         along: None,
-        block: Default::default(),
+        block: crate::model::rules::BlockRules::default(),
     }
 }
 

@@ -204,12 +204,11 @@ impl FoldedBedsDesign {
         let room = (HIDDEN * (most + offsets[0])).min(self.thickness[0]);
         let room = room.max(0.01 * (self.radius - most));
         let shell = |(place, bed): (usize, usize)| {
-            let (base, role) = match place {
-                0 => (offsets[0], Role::Base),
-                _ => {
-                    let deeper = room * place as f64 / beds as f64;
-                    (offsets[0] - deeper, Role::Hidden)
-                }
+            let (base, role) = if place == 0 {
+                (offsets[0], Role::Base)
+            } else {
+                let deeper = room * place as f64 / beds as f64;
+                (offsets[0] - deeper, Role::Hidden)
             };
             let margin = BEYOND + STAGGER * place as f64;
             let section = self.section(low, high, margin);

@@ -413,7 +413,7 @@ fn trimmed(tables: &Tables, face: usize) -> Result<Trimmed, ImportError> {
         loops.push(runs.into_iter().flatten().collect::<Vec<_>>());
     }
     match support {
-        Support::Spline(surface) => Trimmed::new(surface.clone(), loops).map_err(wrong),
+        Support::Spline(surface) => Trimmed::new(surface.clone(), &loops).map_err(wrong),
         Support::Plane {
             origin,
             x_axis,
@@ -431,7 +431,7 @@ fn trimmed(tables: &Tables, face: usize) -> Result<Trimmed, ImportError> {
                 corner(high.x, high.y),
             ];
             let (u, v) = (knots(low.x, high.x)?, knots(low.y, high.y)?);
-            Trimmed::new(Surface::new(u, v, net)?, loops).map_err(wrong)
+            Trimmed::new(Surface::new(u, v, net)?, &loops).map_err(wrong)
         }
     }
 }
@@ -441,7 +441,7 @@ fn run(tables: &Tables, face: usize, of: &Use) -> Result<Option<Run>, ImportErro
     let edge = &tables.edges[of.edge];
     let support = &tables.surfaces[tables.faces[face].surface];
     let path = match (support, edge.curve, of.pcurve) {
-        (_, None, None) => return Ok(None),
+        (_, None, None) | (Support::Plane { .. }, None, Some(_)) => return Ok(None),
         (Support::Spline(_), _, Some(pcurve)) => tables.pcurves[pcurve].clone(),
         (Support::Spline(_), Some(_), None) => {
             return Err(ImportError::NoCurve { face: face + 1 });
@@ -456,7 +456,6 @@ fn run(tables: &Tables, face: usize, of: &Use) -> Result<Option<Run>, ImportErro
                 Path::Spline(curve) => Path::Spline(mapped(curve, flat)?),
             }
         }
-        (Support::Plane { .. }, None, Some(_)) => return Ok(None),
     };
     let curve = match path {
         Path::Line { .. } => {

@@ -335,7 +335,7 @@ fn one_by_one(
     if let Some(by) = motion.shift() {
         return Ok(Some((horizon.moved(by), 0.0)));
     }
-    let plan = after.map(|corner| corner.xy());
+    let plan = after.map(Vec3Swizzles::xy);
     if let Some(by) = motion.plan_shift() {
         // What is added depends on the place alone.
         let lift = |at: DVec2| {

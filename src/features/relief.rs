@@ -106,9 +106,9 @@ pub fn horizon(
         if reached <= tolerance {
             return Ok((horizon, reached));
         }
-        for axis in 0..2 {
-            if worst[axis] > 0.5 * tolerance {
-                grid.cells[axis] *= 2;
+        for (cells, worst) in grid.cells.iter_mut().zip(worst) {
+            if worst > 0.5 * tolerance {
+                *cells *= 2;
             }
         }
         if (grid.cells[0] + 1) * (grid.cells[1] + 1) > MOST {

@@ -72,8 +72,8 @@ pub enum TrimError {
 
 impl Trimmed {
     /// A surface and loops, end to end. Ends may be some ten-thousandths of the loop's extent apart, and are joined.
-    pub fn new(surface: Surface, loops: Vec<Vec<Run>>) -> Result<Self, TrimError> {
-        let outline = Arc::new(outline(&loops)?);
+    pub fn new(surface: Surface, loops: &[Vec<Run>]) -> Result<Self, TrimError> {
+        let outline = Arc::new(outline(loops)?);
         Ok(Self { surface, outline })
     }
 
@@ -201,11 +201,11 @@ mod tests {
         let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let level = || vec![polygon(&square), vec![Run::of(hole.clone())]];
         let mut faces = vec![
-            Trimmed::new(sheet(|u, v| DVec3::new(u, v, -1.0)), level()).unwrap(),
-            Trimmed::new(sheet(|u, v| DVec3::new(u, v, 0.5 - u)), level()).unwrap(),
+            Trimmed::new(sheet(|u, v| DVec3::new(u, v, -1.0)), &level()).unwrap(),
+            Trimmed::new(sheet(|u, v| DVec3::new(u, v, 0.5 - u)), &level()).unwrap(),
         ];
         let upright = |at: &dyn Fn(f64, f64) -> DVec3, corners: &[[f64; 2]]| {
-            Trimmed::new(sheet(at), vec![polygon(corners)]).unwrap()
+            Trimmed::new(sheet(at), &[polygon(corners)]).unwrap()
         };
         // Where x is 1 the top lies at −0.5, where it is −1 at 1.5.
         let low = [[-1.0, -1.0], [1.0, -1.0], [1.0, -0.5], [-1.0, -0.5]];
@@ -220,7 +220,7 @@ mod tests {
         let top: Vec<DVec3> = (0..=256)
             .map(|k| {
                 let s = f64::from(k) / 64.0;
-                DVec3::new(s, (0.5 - hole.point(s).x + 1.2) / 2.0, 0.0)
+                DVec3::new(s, f64::midpoint(0.5 - hole.point(s).x, 1.2), 0.0)
             })
             .collect();
         let knots = (0..=256).map(f64::from);
@@ -234,7 +234,7 @@ mod tests {
             line(ends[0], [0.0, 0.1]),
         ];
         let sides = sides.into_iter().map(Run::of).collect();
-        faces.push(Trimmed::new(tube, vec![sides]).unwrap());
+        faces.push(Trimmed::new(tube, &[sides]).unwrap());
         faces
     }
 
@@ -291,9 +291,9 @@ mod tests {
     fn curves_that_do_not_follow_each_other_are_refused() {
         let mut sides = polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
         sides[1] = Run::of(line([1.0, 0.1], [1.0, 1.0]));
-        let error = Trimmed::new(sheet(|u, v| DVec3::new(u, v, 0.0)), vec![sides]).unwrap_err();
+        let error = Trimmed::new(sheet(|u, v| DVec3::new(u, v, 0.0)), &[sides]).unwrap_err();
         assert!(matches!(error, TrimError::Gap { curve: 0, .. }), "{error}");
-        let error = Trimmed::new(sheet(|u, v| DVec3::new(u, v, 0.0)), vec![vec![]]).unwrap_err();
+        let error = Trimmed::new(sheet(|u, v| DVec3::new(u, v, 0.0)), &[vec![]]).unwrap_err();
         assert_eq!(error, TrimError::Empty);
     }
 }

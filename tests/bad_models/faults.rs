@@ -31,7 +31,7 @@ const EDITS: &[Edit] = &[
     ("depth = 300", "depth = ▸0", &["the depth of the listric of the surface of feature \"listric\" is 0"]),
     ("heave = 3\nshear_deg", "throw = ▸3\nshear_deg", &["the fault of feature \"listric\" is bent", "heave"]),
     ("shear_deg = 10", "shear_deg = ▸85", &["the shear_deg of feature \"listric\" is 85"]),
-    ("on = \"listric\"", "on = ▸\"lystric\"", &["names \"lystric\", but no feature is called that", "did you mean \"listric\"?"]),
+    ("on = \"listric\"", "on = ▸\"lystric\"", &["names \"lystric\", but no feature is called \"lystric\"", "did you mean \"listric\"?"]),
     ("on = \"listric\"", "on = \"listric\"\nsurface = ▸{ level = -5 }", &["feature \"again\" has both `surface` and `on`"]),
     ("points = [[-200, 300], [0, 0], [300, -200]]", "points = ▸[[0, 0], [0, -10]]", &["their distances do not grow"]),
     ("train = { amplitude = 4", "train = { amplitude = ▸0", &["the amplitude of the train of feature \"fold\" is 0"]),

@@ -43,8 +43,13 @@ fn the_examples_of_the_reference_are_good() {
             "sheet",
             "body",
             "trend",
+            "folded-beds",
             "levee",
-            "splay"
+            "splay",
+            "fault",
+            "fold",
+            "tilt",
+            "shear"
         ]
     );
     // Lines that stand for themselves are put into the whole example, one at a time.

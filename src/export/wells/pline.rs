@@ -1,4 +1,4 @@
-//! GOCAD PLine (`.pl`): the paths of wells as lines in world coordinates, each a line of its own for every volume that it passes through.
+//! GOCAD `PLine` (`.pl`): the paths of wells as lines in world coordinates, each a line of its own for every volume that it passes through.
 //!
 //! Vertices carry the measured depth and the volume's number (as in grids; −1 outside of the domain). Where a line ends the next one begins, so
 //! places between volumes are there twice. How near lines are to the path: see [`super::gocad`], whose points these are.
@@ -29,7 +29,7 @@ fn write(own: &GocadWell<'_>, out: &mut String) {
         let mut depths = vec![from];
         depths.extend(within);
         depths.push(to);
-        let volume = one.volume.map_or(-1, |volume| volume.cast_signed());
+        let volume = one.volume.map_or(-1, usize::cast_signed);
         let first = vertex + 1;
         out.push_str("ILINE\n");
         for md in steps(&depths) {

@@ -1,7 +1,7 @@
 //! Slip over a fault that is a graph z = F(x′, y′): the hanging wall slides by a heave, and each of its shear lines follows the fault.
 //!
 //! *Vertical shear* (Verrall 1981): (x′, y′, z) ↦ (x′ + h, y′, z + F(x′ + h, y′) − F(x′, y′)). The fault maps onto itself, the Jacobian is 1,
-//! the inverse is the same with −h, and h may vary along y′. *Inclined shear* (White, Jackson & McKenzie 1986): the same in ξ = x′ − z tan θ,
+//! the inverse is the same with −h, and h may vary along y′. *Inclined shear* (White, Jackson & `McKenzie` 1986): the same in ξ = x′ − z tan θ,
 //! which is constant along lines that lean by θ from the vertical, antithetic where θ > 0, and F*(ξ) the fault's elevation on them:
 //! (ξ, z) ↦ (ξ + h, z + F*(ξ + h) − F*(ξ)), x′ = ξ + z tan θ. Then h is the heave on the detachment.
 //!
@@ -25,7 +25,7 @@ pub struct Heave {
     surface: Arc<FaultSurface>,
     /// x′: the horizontal unit vector of the heave.
     direction: DVec2,
-    heave: Variation,
+    amount: Variation,
     /// tan θ.
     lean: f64,
 }
@@ -68,10 +68,10 @@ impl HeaveDesign {
         let heave = Heave {
             surface,
             direction,
-            heave: self.heave,
+            amount: self.heave,
             lean: self.shear.tan(),
         };
-        if let (Some(_), Some(h)) = (heave.surface.dip(), heave.heave.fixed()) {
+        if let (Some(_), Some(h)) = (heave.surface.dip(), heave.amount.fixed()) {
             let from = heave.surface.through();
             return Ok(Motion::Shift(heave.slid(from, h) - from));
         }
@@ -93,7 +93,7 @@ impl Heave {
 
     /// The heave, if it is the same everywhere and shear is vertical.
     pub(super) fn plan_shift(&self) -> Option<DVec2> {
-        let heave = self.heave.fixed().filter(|_| self.keeps_uprights())?;
+        let heave = self.amount.fixed().filter(|_| self.keeps_uprights())?;
         Some(heave * self.direction)
     }
 
@@ -164,7 +164,7 @@ impl Heave {
 
     fn heave_at(&self, p: DVec3) -> f64 {
         let off = p.xy() - self.surface.through().xy();
-        self.heave.value(off.dot(self.direction.perp()))
+        self.amount.value(off.dot(self.direction.perp()))
     }
 
     pub(super) fn forward(&self, p: DVec3) -> DVec3 {

@@ -67,7 +67,8 @@ mod tests {
 
     #[test]
     fn roots_are_found_to_the_last_bits() {
-        let cases: [(fn(f64) -> f64, f64, f64, f64); 4] = [
+        type Case = (fn(f64) -> f64, f64, f64, f64);
+        let cases: [Case; 4] = [
             (|x| x * x - 2.0, 0.0, 2.0, 2.0_f64.sqrt()),
             (|x| x.cos() - x, -3.0, 5.0, 0.739_085_133_215_160_6),
             // Flat at first, then steep.

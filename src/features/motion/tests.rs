@@ -482,7 +482,7 @@ fn displacement_on_a_plane_is_what_its_law_says() {
         let r = f64::hypot(s / 2000.0, q / 900.0);
         // The other form of the law.
         let wanted = if r < 1.0 {
-            2.0 * 50.0 * (((1.0 + r) / 2.0).powi(2) - r * r).sqrt() * (1.0 - r)
+            2.0 * 50.0 * (f64::midpoint(1.0, r).powi(2) - r * r).sqrt() * (1.0 - r)
         } else {
             0.0
         };

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::keys::Keys;
 use super::made::{Event, Made, Site};
 use crate::features::motion::Motion;
+use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -58,18 +59,22 @@ impl Made {
 
 impl Keys<'_, '_> {
     /// A point that may be left out.
-    pub(super) fn event_point(&self, field: Option<Field<Any>>) -> Option<Option<[Quantity; 3]>> {
+    pub(super) fn event_point(
+        &self,
+        field: Option<Field<Any>>,
+    ) -> Result<Option<[Quantity; 3]>, Reported> {
         let Some(field) = field else {
-            return Some(None);
+            return Ok(None);
         };
-        let (node, Any) = field.good()?;
+        let (node, Any) = field.good().ok_or(Reported)?;
         let point = Tuple {
             what: self.what("through"),
             names: ["x", "y", "z"],
             limits: ANY,
             remedy: "write a point, as through = [500, 500, -50]",
         };
-        point.read(&self.checker.reader, node).map(Some)
+        let point = point.read(&self.checker.reader, node);
+        point.map(Some).ok_or(Reported)
     }
 }
 
@@ -80,12 +85,10 @@ impl Site<'_> {
         point: Option<&[Quantity; 3]>,
         draws: &mut Draws<'_>,
     ) -> Result<DVec3, Reason> {
-        match point {
-            Some(point) => draws.place(point, "through"),
-            None => {
-                let (low, high) = self.domain.corners();
-                Ok(0.5 * (low + high))
-            }
+        if let Some(point) = point {
+            return draws.place(point, "through");
         }
+        let (low, high) = self.domain.corners();
+        Ok(0.5 * (low + high))
     }
 }

@@ -16,6 +16,7 @@ use crate::features::motion::{
     Displacement, HeaveDesign, Law, Motion, MotionError, SlipDesign, Variation,
 };
 use crate::features::profile::Profile as Along;
+use crate::model::checker::Reported;
 use crate::model::draws::{Draws, Reason};
 use crate::model::nature::{Children, Copies, Gives, Nature, Taking, Volumes, Within};
 use crate::model::read::{Any, Field};
@@ -100,6 +101,7 @@ pub struct Tip {
 pub(crate) struct FaultFile {
     /// Where it runs: a plane, a listric surface, a section across it, or heights over the plan.
     #[schemars(schema_with = "fault_surface_schema")]
+    #[serde(default)]
     pub(crate) surface: Option<Field<Any>>,
     /// In place of `surface`: the id of an older fault that slips again. What was laid down between the two slips is moved by this one alone.
     pub(crate) on: Option<Field<String>>,
@@ -178,6 +180,7 @@ pub(crate) struct TipFile {
     pub(crate) height: Option<Field<Any>>,
     /// "walsh-watterson" (the default; 1987), "linear" or "bell": how the displacement falls from the fault's point to the tip line.
     #[schemars(schema_with = "laws")]
+    #[serde(default)]
     pub(crate) profile: Option<Field<String>>,
 }
 
@@ -285,7 +288,7 @@ impl Kind for FaultSpec {
                 "leave `ends_on` out: a fault that slips again ends where it did",
             );
         }
-        let places = [place(&file.tip), place(&file.shear_deg)];
+        let places = [place(file.tip.as_ref()), place(file.shear_deg.as_ref())];
         let slip = keys.slip([
             ("throw", file.throw),
             ("displacement", file.displacement),
@@ -305,12 +308,12 @@ impl Kind for FaultSpec {
             surface,
             slip: slip.1,
             rake_deg: rake.ok()?.unwrap_or(Quantity::Constant(-90.0)),
-            tip: tip?,
+            tip: tip.ok()?,
             shear_deg: shear.ok()?.unwrap_or_else(none),
             footwall_share: share.ok()?.unwrap_or_else(none),
-            ends_on: ends_on?,
-            zone: zone?,
-            tolerance: tolerance?,
+            ends_on: ends_on.ok()?,
+            zone: zone.ok()?,
+            tolerance: tolerance.ok()?,
         })
     }
 
@@ -437,7 +440,7 @@ impl Keys<'_, '_> {
         };
         Some(Tip {
             length: length?,
-            height: height?,
+            height: height.ok()?,
             law: law?,
         })
     }
@@ -458,8 +461,8 @@ impl Keys<'_, '_> {
         });
         Some(Zone {
             facies: facies?,
-            thickness: thickness?,
-            damage: damage?,
+            thickness: thickness.ok()?,
+            damage: damage.ok()?,
         })
     }
 
@@ -483,8 +486,8 @@ impl Keys<'_, '_> {
         });
         Some(Damage {
             facies: facies?,
-            width: width?,
-            hanging_share: share?.unwrap_or(Quantity::Constant(HANGING_SHARE)),
+            width: width.ok()?,
+            hanging_share: share.ok()?.unwrap_or(Quantity::Constant(HANGING_SHARE)),
         })
     }
 
@@ -581,13 +584,13 @@ impl Keys<'_, '_> {
     }
 
     /// How far what is moved may be off; nothing if it is not said.
-    pub(super) fn tolerance(&self, field: Option<Field<f64>>) -> Option<Option<f64>> {
+    pub(super) fn tolerance(&self, field: Option<Field<f64>>) -> Result<Option<f64>, Reported> {
         let Some(field) = field else {
-            return Some(None);
+            return Ok(None);
         };
-        let (node, tolerance) = field.good()?;
+        let (node, tolerance) = field.good().ok_or(Reported)?;
         if tolerance > 0.0 {
-            return Some(Some(tolerance));
+            return Ok(Some(tolerance));
         }
         self.checker.reader.wrong(
             node,
@@ -597,20 +600,24 @@ impl Keys<'_, '_> {
             ),
             "write how far what it moves may be from where it should be, in metres, as 0.01",
         );
-        None
+        Err(Reported)
     }
 }
 
 /// What a field that is there, and no defect, gives.
-fn good<T>(field: Option<Field<Any>>, read: impl FnOnce(NodeId) -> Option<T>) -> Option<Option<T>> {
-    match field {
-        None => Some(None),
-        Some(field) => field.good().and_then(|(node, Any)| read(node)).map(Some),
-    }
+fn good<T>(
+    field: Option<Field<Any>>,
+    read: impl FnOnce(NodeId) -> Option<T>,
+) -> Result<Option<T>, Reported> {
+    let Some(field) = field else {
+        return Ok(None);
+    };
+    let read = field.good().and_then(|(node, Any)| read(node));
+    read.map(Some).ok_or(Reported)
 }
 
 /// Where a field stands.
-fn place(field: &Option<Field<Any>>) -> Option<NodeId> {
+fn place(field: Option<&Field<Any>>) -> Option<NodeId> {
     match field {
         Some(Field::Good(node, _)) => Some(*node),
         _ => None,

@@ -150,12 +150,12 @@ impl Kind for FoldSpec {
         };
         let tolerance = keys.tolerance(file.tolerance);
         Some(Self {
-            through: through?,
+            through: through.ok()?,
             azimuth_deg: azimuth?,
             axial_dip_deg: axial.ok()?.unwrap_or(Quantity::Constant(90.0)),
             plunge_deg: plunge.ok()?.unwrap_or(Quantity::Constant(0.0)),
             folds: folds?,
-            tolerance: tolerance?,
+            tolerance: tolerance.ok()?,
         })
     }
 

@@ -73,7 +73,7 @@ pub(crate) struct FoldedBedsFile {
     /// How far the base of the oldest bed lies above the reference surface in metres, below it if negative; minus half of the whole thickness if left out.
     #[schemars(with = "Option<Quantity>")]
     pub(crate) base_offset: Option<Field<Any>>,
-    /// Facies of the beds, the oldest first, over and over: ["sand", "mud"]; all have the feature's `facies` if left out.
+    /// Facies of the beds, the oldest first, over and over, as `["sand", "mud"]`; all have the feature's `facies` if left out.
     #[schemars(with = "Option<Vec<String>>", length(min = 1))]
     pub(crate) bed_facies: Option<Field<Any>>,
 }

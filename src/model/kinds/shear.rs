@@ -37,6 +37,7 @@ pub(crate) struct ShearFile {
     pub(crate) through: Option<Field<Any>>,
     /// "level" (the default): level planes slide, those above the point along the azimuth, so that what was upright leans; "upright": upright planes slide, those along the azimuth downwards, so that what was level dips.
     #[schemars(schema_with = "planes")]
+    #[serde(default)]
     pub(crate) planes: Option<Field<String>>,
     /// By how much what was at right angles to the planes leans, in degrees, between -80 and 80.
     #[schemars(with = "Quantity")]
@@ -87,7 +88,7 @@ impl Kind for ShearSpec {
         let angle = keys.quantity(file.angle_deg, "angle_deg", "angle_deg = 10", ANGLE);
         let azimuth = keys.quantity(file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
         Some(Self {
-            through: through?,
+            through: through.ok()?,
             is_upright: is_upright?,
             angle_deg: angle?,
             azimuth_deg: azimuth?,

@@ -52,7 +52,7 @@ impl Kind for TiltSpec {
         let dip = keys.quantity(file.dip_deg, "dip_deg", "dip_deg = 5", PLUNGE);
         let azimuth = keys.quantity(file.azimuth_deg, "azimuth_deg", "azimuth_deg = 90", AZIMUTH);
         Some(Self {
-            through: through?,
+            through: through.ok()?,
             dip_deg: dip?,
             azimuth_deg: azimuth?,
         })

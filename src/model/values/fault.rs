@@ -111,6 +111,7 @@ struct ListricFile {
     depth: Field<Any>,
     /// "circular" (the default): along an arc that ends level at that depth; "exponential": ever nearer to it.
     #[schemars(schema_with = "form")]
+    #[serde(default)]
     form: Option<Field<String>>,
 }
 
@@ -139,7 +140,13 @@ pub(crate) fn fault_surface_schema(generator: &mut SchemaGenerator) -> Schema {
     let listric = generator.subschema_for::<ListricFile>();
     let section = generator.subschema_for::<FaultSectionFile>();
     let heights = generator.subschema_for::<HorizonSurface>();
-    let one = |key: &str, schema: Schema| {
+    let one = |key: &str, mut schema: Schema| {
+        let about = match key {
+            "dipping" => "A plane.",
+            "listric" => "Straight above its point, flatter and flatter below it.",
+            _ => "A section across it, the same along all of its strike.",
+        };
+        schema.insert("description".to_owned(), about.into());
         json_schema!({
             "type": "object", "properties": { key: schema }, "required": [key], "additionalProperties": false,
         })
@@ -243,7 +250,7 @@ fn through(
     let reader = &keys.checker.reader;
     let (at, Any) = reader.need(field, node, of, "through", "through = [500, 500, -50]")?;
     let tuple = Tuple {
-        what: format!("the point of {of}"),
+        what: format!("the through of {of}"),
         names: ["x", "y", "z"],
         limits: ANY,
         remedy: "write a point, as through = [500, 500, -50]",

@@ -98,7 +98,7 @@ impl Adding<'_> {
     ) -> Result<(), RealisationError> {
         match part {
             None => self.move_all(due, event),
-            Some(part) => self.part(due, event, part),
+            Some(part) => self.part(due, event, &part),
         }
     }
 
@@ -122,7 +122,7 @@ impl Adding<'_> {
     }
 
     /// Parts what is older in two blocks.
-    fn part(&mut self, due: &Due, event: &Event, part: Part) -> Result<(), RealisationError> {
+    fn part(&mut self, due: &Due, event: &Event, part: &Part) -> Result<(), RealisationError> {
         let [own, rest] =
             [Wall::Hanging, Wall::Foot].map(|wall| format!("{}.{}", due.name, wall.word()));
         let again = self.again(due, event)?;
@@ -134,7 +134,7 @@ impl Adding<'_> {
             let block = self.block(root, &outside);
             let moved = self.moved(&block.members, event, &event.motion)?;
             deviation = deviation.max(moved.deviation);
-            let ground = self.add_ground(due, &part, root, &outside, &own);
+            let ground = self.add_ground(due, part, root, &outside, &own);
             // What slips again lies where it did.
             self.grounds.insert(ground, again.unwrap_or(first));
             self.copy(&block, ground, moved.all, event, (&part.body, again), &own);
