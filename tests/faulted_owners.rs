@@ -133,11 +133,11 @@ impl<'a> History<'a> {
                 .and_then(|master| fault(&self.entries[master], p));
             return match (entry, master) {
                 (Entry::Fault(.., Some(wanted)), Some((is_there, _))) => {
-                    if is_there != *wanted {
-                        self.holder(at, p, None)
-                    } else {
+                    if is_there == *wanted {
                         let from = if is_above { p - slip } else { p };
                         self.holder(at, from, Some(*wanted))
+                    } else {
+                        self.holder(at, p, None)
                     }
                 }
                 _ => self.holder(at, if is_above { p - slip } else { p }, None),
