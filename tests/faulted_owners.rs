@@ -118,30 +118,36 @@ impl<'a> History<'a> {
         }
     }
 
+    /// The fault directly before one that ends on it, so that nothing has moved that one since; with the side on which this one lies.
+    fn master(&self, at: usize) -> Option<(usize, bool)> {
+        let Entry::Fault(.., Some(wanted)) = self.entries[at] else {
+            return None;
+        };
+        let before = at.checked_sub(1)?;
+        matches!(self.entries[before], Entry::Fault(..)).then_some((before, wanted))
+    }
+
+    /// Whether a place is in a fault's hanging wall, which reaches no farther than the fault.
+    fn is_above(&self, at: usize, p: DVec3) -> bool {
+        let is_above = fault(&self.entries[at], p).is_some_and(|(is_above, _)| is_above);
+        let reaches = self
+            .master(at)
+            .is_none_or(|(master, wanted)| self.is_above(master, p) == wanted);
+        is_above && reaches
+    }
+
     /// What holds a place after the first entries. What a fault moves that ends on the one before it is that one's block, as if it filled all
     /// of space: of its master it is known on which side the place was (`side`).
     fn holder(&self, count: usize, p: DVec3, side: Option<bool>) -> usize {
         let Some(at) = count.checked_sub(1) else {
             return BACKGROUND;
         };
-        let entry = &self.entries[at];
-        if let Some((is_above, slip)) = fault(entry, p) {
-            let is_above = side.unwrap_or(is_above);
-            // Directly before it, so that nothing has moved that one since.
-            let master = at
-                .checked_sub(1)
-                .and_then(|master| fault(&self.entries[master], p));
-            return match (entry, master) {
-                (Entry::Fault(.., Some(wanted)), Some((is_there, _))) => {
-                    if is_there == *wanted {
-                        let from = if is_above { p - slip } else { p };
-                        self.holder(at, from, Some(*wanted))
-                    } else {
-                        self.holder(at, p, None)
-                    }
-                }
-                _ => self.holder(at, if is_above { p - slip } else { p }, None),
-            };
+        if let Some((_, slip)) = fault(&self.entries[at], p) {
+            if !side.unwrap_or_else(|| self.is_above(at, p)) {
+                return self.holder(at, p, None);
+            }
+            // What it moves lies on one side of its master, wherever that brings it.
+            return self.holder(at, p - slip, self.master(at).map(|(_, wanted)| wanted));
         }
         let holder = self.holder(at, p, None);
         let volume = self.volumes[at].unwrap();
