@@ -63,7 +63,7 @@ def check_contacts(build, solids):
     areas = Counter()
     for _, tag in surfaces:
         areas[len(gmsh.model.getAdjacencies(2, tag)[0])] += gmsh.model.occ.getMass(2, tag)
-    assert areas[1] == pytest.approx(build.skin, rel=1e-5)
+    assert areas[1] == pytest.approx(build.skin, rel=max(1e-5, build.crude))
 
 
 def check_volumes(build, solids, promised):
@@ -73,7 +73,7 @@ def check_volumes(build, solids, promised):
         area = sum(gmsh.model.occ.getMass(2, abs(face)) for _, face in gmsh.model.getBoundary([(3, tag)]))
         assert build.same_volume(size, told, ROUGH, area), (name, size, told)
         total += size
-    assert total == pytest.approx(build.domain["volume_m3"], rel=ROUGH_SUM)
+    assert total == pytest.approx(build.domain["volume_m3"], rel=max(ROUGH_SUM, build.crude))
 
 
 def test_the_assembly_has_its_names_colours_solids_and_volumes(build, opened):
