@@ -89,6 +89,21 @@ pub(crate) fn told(nets: &Nets) -> Vec<String> {
 }
 
 impl Keys<'_, '_> {
+    /// Where what is given in coordinates of its own is placed; at the origin if that is left out.
+    pub(super) fn placed_at(&self, at: Option<Field<Any>>) -> Option<[Quantity; 3]> {
+        let Some(field) = at else {
+            return Some([0.0; 3].map(Quantity::Constant));
+        };
+        let (node, Any) = field.good()?;
+        let place = Tuple {
+            what: self.what("at"),
+            names: ["x", "y", "z"],
+            limits: ANY,
+            remedy: "write the three coordinates in [ ], in metres",
+        };
+        place.read(&self.checker.reader, node)
+    }
+
     /// The nets of the feature, with where they are.
     pub(crate) fn placed(&self) -> Option<Placed> {
         let PlacedFile {
@@ -100,18 +115,7 @@ impl Keys<'_, '_> {
         let nets = self
             .need(nets, "nets", example)
             .and_then(|(node, Any)| self.checker.nets(node, &self.what("nets")));
-        let at = match at {
-            None => Some([0.0; 3].map(Quantity::Constant)),
-            Some(field) => field.good().and_then(|(node, Any)| {
-                let place = Tuple {
-                    what: self.what("at"),
-                    names: ["x", "y", "z"],
-                    limits: ANY,
-                    remedy: "write the three coordinates in [ ], in metres",
-                };
-                place.read(&self.checker.reader, node)
-            }),
-        };
+        let at = self.placed_at(at);
         let azimuth = self.optional_quantity(azimuth_deg, "azimuth_deg", AZIMUTH);
         Some(Placed {
             nets: nets?,

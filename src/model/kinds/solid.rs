@@ -18,9 +18,8 @@ use crate::model::read::{Any, Field};
 use crate::model::solids::{ReadSolid, SolidFormat, Written};
 use crate::model::suggest;
 use crate::model::tree::quoted;
-use crate::model::values::limits::{ANY, AZIMUTH, POSITIVE};
+use crate::model::values::limits::{AZIMUTH, POSITIVE};
 use crate::model::values::quantity::Quantity;
-use crate::model::values::tuple::Tuple;
 
 /// What BREP files count in, in metres.
 const UNITS: [(&str, f64); 6] = [
@@ -105,18 +104,7 @@ impl Kind for SolidSpec {
         let file = keys.need(file, "file", "file = \"salt.step\"");
         let scale = keys.optional_quantity(scale, "scale", POSITIVE);
         let azimuth = keys.optional_quantity(azimuth_deg, "azimuth_deg", AZIMUTH);
-        let at = match at {
-            None => Some([0.0; 3].map(Quantity::Constant)),
-            Some(field) => field.good().and_then(|(node, Any)| {
-                let place = Tuple {
-                    what: keys.what("at"),
-                    names: ["x", "y", "z"],
-                    limits: ANY,
-                    remedy: "write the three coordinates in [ ], in metres",
-                };
-                place.read(&keys.checker.reader, node)
-            }),
-        };
+        let at = keys.placed_at(at);
         let is_world = match world {
             None => Some(false),
             Some(field) => field.good().map(|(_, world)| world),
