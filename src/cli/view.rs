@@ -12,6 +12,7 @@ use super::progress::Progress;
 use super::{interrupt, picture, tubes};
 use crate::export::ExportError;
 use crate::export::mesh::Triangulation;
+use crate::export::picture::section::fitting_exaggeration;
 use crate::export::picture::view::{Box3, Camera, Cut, Owner, Part, Projection, Scene};
 use crate::export::picture::{PictureError, Rgb, Swatch, Volume, cap};
 use crate::export::sheets::Sheets;
@@ -41,9 +42,9 @@ pub(super) struct Args {
     /// Height of the eye above the horizontal; negative looks from below.
     #[arg(long, value_name = "DEGREES", value_parser = finite, allow_negative_numbers = true, conflicts_with = "below")]
     elevation_deg: Option<f64>,
-    /// How many times elevations are stretched.
-    #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true, default_value_t = EXAGGERATION)]
-    exaggeration: f64,
+    /// How many times elevations are stretched. If not given, as often as fits a domain that is wide and low.
+    #[arg(long, value_name = "TIMES", value_parser = finite, allow_negative_numbers = true)]
+    exaggeration: Option<f64>,
     /// Cut away the corner nearest to the eye, to this easting and northing (m).
     #[arg(long, value_name = "X,Y", value_parser = numbers::<2>, allow_hyphen_values = true)]
     cut: Option<[f64; 2]>,
@@ -84,8 +85,6 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
 const CHORD: f64 = 2e-4;
 /// Largest angle between the surface's normals along a triangle's side (rad).
 const ANGLE: f64 = 0.3;
-/// How many times elevations are stretched if it is not said.
-const EXAGGERATION: f64 = 5.0;
 /// The eye's distance in perspective, in diagonals.
 const DISTANCE: f64 = 3.0;
 
@@ -128,7 +127,7 @@ pub(super) fn tile(
         below: false,
         azimuth_deg: None,
         elevation_deg: None,
-        exaggeration: EXAGGERATION,
+        exaggeration: None,
         cut: None,
         perspective: false,
         output: None,
@@ -150,7 +149,11 @@ fn drawn(
     let owners = loaded.owners()?;
     let (mut volumes, mut legend) = picture::key(loaded);
     let (low, high) = (owners.extent().low(), owners.extent().high());
-    let camera = camera(args);
+    let exaggeration = args.exaggeration.unwrap_or_else(|| {
+        let size = high - low;
+        fitting_exaggeration(size.truncate().length(), size.z)
+    });
+    let camera = camera(args, exaggeration);
     let shown = |point: DVec3| {
         let owner = owners.at(point)?;
         // Among solids the background stays open, so that they can be seen.
@@ -174,7 +177,7 @@ fn drawn(
         parts.extend(tubes::tubes(
             &loaded.model,
             domain,
-            args.exaggeration,
+            exaggeration,
             volumes.len(),
         ));
         volumes.push(Volume {
@@ -200,11 +203,11 @@ fn drawn(
     draw(&scene, &shown).map_err(|error| picture::refused(&error))
 }
 
-fn camera(args: &Args) -> Camera {
+fn camera(args: &Args, exaggeration: f64) -> Camera {
     let mut camera = if args.below {
-        Camera::from_below(args.exaggeration)
+        Camera::from_below(exaggeration)
     } else {
-        Camera::from_above(args.exaggeration)
+        Camera::from_above(exaggeration)
     };
     camera.azimuth_deg = args.azimuth_deg.unwrap_or(camera.azimuth_deg);
     camera.elevation_deg = args.elevation_deg.unwrap_or(camera.elevation_deg);
