@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::horizon::{Horizon, HorizonError, OVERSHOOT, best_plane};
-use crate::nurbs::Approximation;
+use crate::nurbs::{Approximation, Lattice};
 
 /// How far beyond a plan heights count, as a fraction of the plan's extents: farther than any sheet.
 const REACH: f64 = 2.0 * OVERSHOOT;
@@ -26,6 +26,9 @@ const FOR_EACH: usize = 2;
 const ANYHOW: usize = 64;
 /// Of heights with noise there must be so many for a control point, or the noise is fitted.
 const NOISY: usize = 4;
+/// How many times its root mean square a lattice's error is at most, while it is being solved for: 1.5 seen. A lattice that is given up too early
+/// costs control points and nothing else.
+const SPREAD: f64 = 4.0;
 
 /// When a surface is near enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +66,14 @@ impl Goal {
         match self {
             Self::Within(tolerance) => misfit.most <= tolerance,
             Self::Noise(noise) => misfit.rms <= noise,
+        }
+    }
+
+    /// Whether what is missed by so much will never be near enough, if its heights are known to so much (root mean square).
+    fn is_hopeless(self, misfit: &Misfit, known: f64) -> bool {
+        match self {
+            Self::Within(tolerance) => misfit.most - SPREAD * known > tolerance,
+            Self::Noise(noise) => misfit.rms - known > noise,
         }
     }
 
@@ -110,12 +121,13 @@ impl Fitted {
             slope,
             extent: high - low,
             most: goal.most(heights.len()),
+            goal,
             data: Approximation::new(low, high, &residuals)?,
         };
         let mut times = 1;
         while let Some(fitted) = fitting.with(fitting.cells(CELLS, times))? {
             if goal.is_met(&fitted.misfit) {
-                return fitting.fewer(fitted, times, goal);
+                return fitting.fewer(fitted, times);
             }
             if fitted.misfit.rms < best.misfit.rms {
                 best = fitted;
@@ -174,6 +186,7 @@ struct Fitting<'a> {
     slope: DVec2,
     extent: DVec2,
     most: usize,
+    goal: Goal,
     data: Approximation<'a>,
 }
 
@@ -196,9 +209,16 @@ impl Fitting<'_> {
         if counts[0].saturating_mul(counts[1]) > self.most {
             return Ok(None);
         }
-        let lattice = self.data.lattice(cells, SMOOTHNESS)?;
-        let horizon = Horizon::above(lattice, self.through, self.slope);
-        let misfit = Misfit::of(&horizon, self.heights);
+        let (heights, through, slope, goal) = (self.heights, self.through, self.slope, self.goal);
+        let above = |lattice: Lattice| {
+            let horizon = Horizon::above(lattice, through, slope);
+            let misfit = Misfit::of(&horizon, heights);
+            (horizon, misfit)
+        };
+        let lattice = self.data.lattice(cells, SMOOTHNESS, |lattice, known| {
+            goal.is_hopeless(&above(lattice.clone()).1, known)
+        })?;
+        let (horizon, misfit) = above(lattice);
         Ok(Some(Fitted {
             horizon,
             misfit,
@@ -207,7 +227,7 @@ impl Fitting<'_> {
     }
 
     /// One with fewer control points than one that is near enough, so many times finer than the first.
-    fn fewer(mut self, found: Fitted, times: usize, goal: Goal) -> Result<Fitted, HorizonError> {
+    fn fewer(mut self, found: Fitted, times: usize) -> Result<Fitted, HorizonError> {
         let mut best = found;
         // Between half of it, which is not enough, and all: of the first lattice 2 and 4, of others 4 and 8.
         let (half, times) = if times == 1 {
@@ -219,7 +239,9 @@ impl Fitting<'_> {
         while enough - too_few > 1 {
             let middle = usize::midpoint(too_few, enough);
             match self.with(self.cells(middle, times))? {
-                Some(fitted) if goal.is_met(&fitted.misfit) => (best, enough) = (fitted, middle),
+                Some(fitted) if self.goal.is_met(&fitted.misfit) => {
+                    (best, enough) = (fitted, middle)
+                }
                 _ => too_few = middle,
             }
         }
@@ -232,7 +254,7 @@ impl Fitting<'_> {
                 }
                 cells[axis] /= 2;
                 match self.with(cells)? {
-                    Some(fitted) if goal.is_met(&fitted.misfit) => best = fitted,
+                    Some(fitted) if self.goal.is_met(&fitted.misfit) => best = fitted,
                     _ => break,
                 }
             }

@@ -24,6 +24,11 @@ const ENTRIES: usize = WIDTH * WIDTH;
 /// Residuals are small enough at this fraction of the right-hand side, and steps many enough at this number.
 const RESIDUAL: f64 = 1e-11;
 const STEPS: usize = 50;
+/// After so many steps, and twice, four times … as many, it is asked whether there is any use in more.
+const FIRST_ASKED: usize = 4;
+/// The square root of how many times larger an error's energy is than what a cycle makes of its residual: conjugate gradients with this cycle
+/// gain a factor of 1.25 a step, so the condition is about 80.
+const CONDITION: f64 = 10.0;
 /// Sweeps before and after the coarser lattice.
 const SWEEPS: usize = 2;
 /// Sides with no more cells are not halved: so few nodes are solved for directly.
@@ -79,7 +84,15 @@ impl<'a> Approximation<'a> {
     }
 
     /// The lattice with so many cells along x and y.
-    pub fn lattice(&mut self, cells: [usize; 2], smoothness: f64) -> Result<Lattice, LatticeError> {
+    ///
+    /// While it is being solved for, `is_vain` is asked now and then with what it is so far, and about how far heights of that are from
+    /// those of the solution, as a root mean square (m). If it says yes, that is what the caller gets.
+    pub fn lattice(
+        &mut self,
+        cells: [usize; 2],
+        smoothness: f64,
+        mut is_vain: impl FnMut(&Lattice, f64) -> bool,
+    ) -> Result<Lattice, LatticeError> {
         let counts = cells.map(|count| count + 1);
         let zeros = vec![0.0; counts[0] * counts[1]];
         let frame = Lattice::of_coefficients(self.low, self.high, counts, zeros)?;
@@ -88,8 +101,15 @@ impl<'a> Approximation<'a> {
         let size = (self.high - self.low) / DVec2::new(cells[0] as f64, cells[1] as f64);
         let stiffness = smoothness * density * size.element_product();
         let cycle = self.cycle(cells, stiffness)?;
-        let coefficients = cycle.solve(0, &sums.right);
-        Lattice::of_coefficients(self.low, self.high, counts, coefficients)
+        let lattice = |coefficients: Vec<f64>| {
+            Lattice::of_coefficients(self.low, self.high, counts, coefficients)
+        };
+        let number = self.points.len() as f64;
+        let coefficients = cycle.solve(0, &sums.right, &mut |so_far, energy| {
+            let known = CONDITION * (energy / number).sqrt();
+            lattice(so_far.to_vec()).is_ok_and(|so_far| is_vain(&so_far, known))
+        });
+        lattice(coefficients)
     }
 
     /// The equations of a lattice and all coarser ones, for a stiffness in square metres.
@@ -248,13 +268,25 @@ impl Level {
 impl Cycle {
     /// The solution of a level: by conjugate gradients, from that of the coarser one. Where there are no heights what is left of the equations
     /// is too small to be told, but the coarser solution is right there already, since the coarsest is exact.
-    fn solve(&self, at: usize, right: &[f64]) -> Vec<f64> {
+    ///
+    /// `is_vain` gets what the solution is so far, and about the energy of what is missing: the sum of the squared differences of the heights,
+    /// and more.
+    fn solve(
+        &self,
+        at: usize,
+        right: &[f64],
+        is_vain: &mut dyn FnMut(&[f64], f64) -> bool,
+    ) -> Vec<f64> {
         let level = &self.levels[at];
         if at + 1 == self.levels.len() {
             return self.cycled(at, right);
         }
         let coarser = self.levels[at + 1].counts;
-        let start = self.solve(at + 1, &restricted(right, level.counts, coarser));
+        let start = self.solve(
+            at + 1,
+            &restricted(right, level.counts, coarser),
+            &mut |_, _| false,
+        );
         let mut solution = prolonged(&start, coarser, level.counts);
         let mut residual: Vec<f64> = (0..right.len())
             .map(|node| right[node] - level.times(node, &solution))
@@ -262,9 +294,16 @@ impl Cycle {
         let mut direction = self.cycled(at, &residual);
         let mut reduced = dot(&residual, &direction);
         let enough = RESIDUAL * dot(right, right).sqrt();
-        for _ in 0..STEPS {
+        let mut asked = FIRST_ASKED;
+        for step in 0..STEPS {
             if !(reduced > 0.0 && dot(&residual, &residual).sqrt() > enough) {
                 break;
+            }
+            if step == asked {
+                if is_vain(&solution, reduced) {
+                    break;
+                }
+                asked *= 2;
             }
             let image: Vec<f64> = (0..right.len())
                 .map(|node| level.times(node, &direction))
@@ -436,11 +475,43 @@ mod tests {
         let mut data = Approximation::new(LOW, HIGH, &points).unwrap();
         let frame = Lattice::of_coefficients(LOW, HIGH, counts, vec![0.0; 825]).unwrap();
         let density = 900.0 / Sums::of(&frame, &points).cells as f64;
-        let found = data.lattice([32, 24], smoothness / density).unwrap();
+        let found = data
+            .lattice([32, 24], smoothness / density, |_, _| false)
+            .unwrap();
         for point in scattered(200, |_| 0.0) {
             let at = point.truncate();
             assert!((exact.value(at) - found.value(at)).abs() < 1e-6, "{at}");
         }
+    }
+
+    #[test]
+    fn heights_are_known_better_than_it_is_said_while_a_lattice_is_solved_for() {
+        let points = scattered(4000, |at| (2.5 * at.x).sin() * (1.7 * at.y).cos());
+        let mut data = Approximation::new(LOW, HIGH, &points).unwrap();
+        let mut asked = Vec::new();
+        let solution = data
+            .lattice([64, 48], 1e-7, |so_far, known| {
+                asked.push((so_far.clone(), known));
+                false
+            })
+            .unwrap();
+        assert!(asked.len() >= 3, "asked {} times", asked.len());
+        for (so_far, known) in &asked {
+            let squares = points.iter().map(|p| {
+                let at = p.truncate();
+                (so_far.value(at) - solution.value(at)).powi(2)
+            });
+            let rms = (squares.sum::<f64>() / points.len() as f64).sqrt();
+            assert!(rms < *known, "{rms} is not below {known}");
+        }
+        assert!(
+            asked[2].1 < 0.2 * asked[0].1,
+            "{} {}",
+            asked[0].1,
+            asked[2].1
+        );
+        let first = data.lattice([64, 48], 1e-7, |_, _| true).unwrap();
+        assert_eq!(first, asked[0].0);
     }
 
     #[test]
@@ -449,7 +520,7 @@ mod tests {
         let mut points = scattered(400, plane);
         points.retain(|p| p.x < 14.0);
         let mut data = Approximation::new(LOW, HIGH, &points).unwrap();
-        let lattice = data.lattice([64, 48], 1e-6).unwrap();
+        let lattice = data.lattice([64, 48], 1e-6, |_, _| false).unwrap();
         for at in [LOW, HIGH, DVec2::new(26.0, -5.0)] {
             let off = (lattice.value(at) - plane(at)).abs();
             // Three quarters of the plan have no heights; what rounding leaves undecided there is a thousandth of them.
