@@ -339,12 +339,12 @@ impl<'a> Outline<'a> {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::nurbs::{Curve, KnotVector};
 
     /// A circle in four rational quadratics.
-    fn circle(middle: DVec2, radius: f64) -> Curve {
+    pub(in crate::nurbs) fn circle(middle: DVec2, radius: f64) -> Curve {
         let w = 0.5_f64.sqrt();
         let corners = [
             (1.0, 0.0),

@@ -138,11 +138,12 @@ fn closes(own: &[Run]) -> Result<(), TrimError> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
-    use glam::DVec3;
+    use glam::{DVec2, DVec3};
 
     use super::*;
     use crate::nurbs::KnotVector;
     use crate::nurbs::enclosure::Enclosure;
+    use crate::nurbs::outline::tests::circle;
 
     fn line(from: [f64; 2], to: [f64; 2]) -> Curve {
         let knots = KnotVector::new(1, vec![0.0, 0.0, 1.0, 1.0]).unwrap();
@@ -154,28 +155,6 @@ mod tests {
         let next = corners.iter().cycle().skip(1);
         let sides = corners.iter().zip(next);
         sides.map(|(a, b)| Run::of(line(*a, *b))).collect()
-    }
-
-    /// A circle in four rational quadratics.
-    fn circle(middle: [f64; 2], radius: f64) -> Curve {
-        let w = 0.5_f64.sqrt();
-        let corners = [
-            (1.0, 0.0),
-            (1.0, 1.0),
-            (0.0, 1.0),
-            (-1.0, 1.0),
-            (-1.0, 0.0),
-            (-1.0, -1.0),
-            (0.0, -1.0),
-            (1.0, -1.0),
-            (1.0, 0.0),
-        ];
-        let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
-        let at =
-            |(x, y): (f64, f64)| DVec3::new(middle[0] + radius * x, middle[1] + radius * y, 0.0);
-        let weights = (0..9).map(|k| if k % 2 == 0 { 1.0 } else { w }).collect();
-        let knots = KnotVector::new(2, knots).unwrap();
-        Curve::rational(knots, corners.map(at).to_vec(), weights).unwrap()
     }
 
     /// A sheet over [−2, 2]² in u and v.
@@ -197,7 +176,7 @@ mod tests {
     /// A block from −1 to 1 in plan and from −1 to its top, x + z = ½, with a round hole through it: every face a part of a larger
     /// sheet.
     fn drilled() -> Vec<Trimmed> {
-        let hole = circle([0.2, -0.1], 0.4);
+        let hole = circle(DVec2::new(0.2, -0.1), 0.4);
         let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let level = || vec![polygon(&square), vec![Run::of(hole.clone())]];
         let mut faces = vec![

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::keys::Keys;
+use super::keys::{Keys, optional};
 use super::made::{Event, Made, Site};
 use crate::features::motion::Motion;
 use crate::model::checker::Reported;
@@ -63,18 +63,16 @@ impl Keys<'_, '_> {
         &self,
         field: Option<Field<Any>>,
     ) -> Result<Option<[Quantity; 3]>, Reported> {
-        let Some(field) = field else {
-            return Ok(None);
-        };
-        let (node, Any) = field.good().ok_or(Reported)?;
         let point = Tuple {
             what: self.what("through"),
             names: ["x", "y", "z"],
             limits: ANY,
             remedy: "write a point, as through = [500, 500, -50]",
         };
-        let point = point.read(&self.checker.reader, node);
-        point.map(Some).ok_or(Reported)
+        optional(field, |field| {
+            let (node, Any) = field.good()?;
+            point.read(&self.checker.reader, node)
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use super::keys::Keys;
+use super::keys::{Keys, optional};
 use super::kind::Kind;
 use super::made::{Event, Made, Part, Site, Wall};
 use crate::features::body::Body;
@@ -297,9 +297,9 @@ impl Kind for FaultSpec {
         let rake = keys.optional_quantity(file.rake_deg, "rake_deg", RAKE);
         let shear = keys.optional_quantity(file.shear_deg, "shear_deg", SHEAR);
         let share = keys.optional_quantity(file.footwall_share, "footwall_share", FRACTION);
-        let tip = good(file.tip, |node| keys.tip(node));
-        let ends_on = good(file.ends_on, |node| keys.ends_on(node));
-        let zone = good(file.zone, |node| keys.zone(node));
+        let tip = given(file.tip, |node| keys.tip(node));
+        let ends_on = given(file.ends_on, |node| keys.ends_on(node));
+        let zone = given(file.zone, |node| keys.zone(node));
         let tolerance = keys.tolerance(file.tolerance);
         let none = || Quantity::Constant(0.0);
         let (surface, slip) = (surface?, slip?);
@@ -420,7 +420,7 @@ impl Keys<'_, '_> {
             |at: NodeId, key: &str| quantity(reader, at, &format!("the {key} of {what}"), POSITIVE);
         let length = reader.need(file.length, node, &what, "length", "length = 4000");
         let length = length.and_then(|(at, Any)| number(at, "length"));
-        let height = good(file.height, |at| number(at, "height"));
+        let height = given(file.height, |at| number(at, "height"));
         let law = match file.profile.map(Field::good) {
             None => Some(Law::WalshWatterson),
             Some(None) => None,
@@ -453,10 +453,10 @@ impl Keys<'_, '_> {
         let facies = reader.need(file.facies, node, &what, "facies", "facies = \"gouge\"");
         let facies =
             facies.and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
-        let thickness = good(file.thickness, |at| {
+        let thickness = given(file.thickness, |at| {
             quantity(reader, at, &format!("the thickness of {what}"), POSITIVE)
         });
-        let damage = good(file.damage, |at| {
+        let damage = given(file.damage, |at| {
             self.damage(at, &format!("the damage of {what}"))
         });
         Some(Zone {
@@ -473,10 +473,10 @@ impl Keys<'_, '_> {
         let facies = reader.need(file.facies, node, what, "facies", "facies = \"fractured\"");
         let facies =
             facies.and_then(|(at, name)| self.checker.known_facies(at, &name, self.family.facies));
-        let width = good(file.width, |at| {
+        let width = given(file.width, |at| {
             quantity(reader, at, &format!("the width of {what}"), POSITIVE)
         });
-        let share = good(file.hanging_share, |at| {
+        let share = given(file.hanging_share, |at| {
             quantity(
                 reader,
                 at,
@@ -604,16 +604,14 @@ impl Keys<'_, '_> {
     }
 }
 
-/// What a field that is there, and no defect, gives.
-fn good<T>(
+/// What the value of a field that may be left out is read as.
+fn given<T>(
     field: Option<Field<Any>>,
     read: impl FnOnce(NodeId) -> Option<T>,
 ) -> Result<Option<T>, Reported> {
-    let Some(field) = field else {
-        return Ok(None);
-    };
-    let read = field.good().and_then(|(node, Any)| read(node));
-    read.map(Some).ok_or(Reported)
+    optional(field, |field| {
+        field.good().and_then(|(node, Any)| read(node))
+    })
 }
 
 /// Where a field stands.

@@ -200,7 +200,7 @@ impl<'t> Keys<'_, 't> {
 }
 
 /// What a key that may be left out holds.
-fn optional<T>(
+pub(super) fn optional<T>(
     field: Option<Field<Any>>,
     read: impl FnOnce(Field<Any>) -> Option<T>,
 ) -> Result<Option<T>, Reported> {
