@@ -288,3 +288,13 @@ fn triangles_of_random_sedimentary_models_in_round_numbers_close() {
 fn triangles_of_random_models_whose_features_refer_to_others_close() {
     random(Kind::Referring);
 }
+
+#[test]
+fn triangles_of_random_faulted_models_close() {
+    random(Kind::Faulted);
+}
+
+#[test]
+fn triangles_of_random_models_with_faults_in_round_numbers_close() {
+    random(Kind::RoundFaulted);
+}
