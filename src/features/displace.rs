@@ -151,15 +151,27 @@ impl<E: std::error::Error> Displacement<'_, E> {
         let mut worst = 0.0_f64;
         let mut wanted = [Vec::new(), Vec::new()];
         let (in_u, in_v) = (along_u.distinct(), along_v.distinct());
-        for us in in_u.windows(2) {
-            for vs in in_v.windows(2) {
-                let (u, v) = ([us[0].0, us[1].0], [vs[0].0, vs[1].0]);
+        let probes =
+            |knots: &KnotVector, span: [f64; 2]| PROBES.map(|part| knots.basis(within(span, part)));
+        let spans = |distinct: &[(f64, usize)]| -> Vec<[f64; 2]> {
+            let pairs = distinct.windows(2);
+            pairs.map(|pair| [pair[0].0, pair[1].0]).collect()
+        };
+        let along_v: Vec<_> = spans(&in_v)
+            .into_iter()
+            .map(|v| (v, probes(along_v, v)))
+            .collect();
+        for u in spans(&in_u) {
+            let along_u = probes(along_u, u);
+            for (v, along_v) in &along_v {
+                let v = *v;
                 let mut own = 0.0_f64;
-                for part_u in PROBES {
-                    for part_v in PROBES {
-                        let at = [within(u, part_u), within(v, part_v)];
-                        let place = surface.point(at[0], at[1]) + by(at[0], at[1])?;
-                        let miss = sheet.point(at[0], at[1]).distance(place);
+                for at_u in &along_u {
+                    for at_v in along_v {
+                        let before = surface.point_by(at_u, at_v);
+                        let place = before + (self.by)(before).map_err(DisplaceError::By)?;
+                        // It has the same knots.
+                        let miss = sheet.point_by(at_u, at_v).distance(place);
                         // Written so that what is no number counts.
                         if !(miss <= own) {
                             own = miss;

@@ -5,6 +5,7 @@
 //! the lowest place. Each lobe lies on a smooth surface through what is there, lowered a little so that nothing stays between.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::body::Role;
 use super::horizon::{Horizon, HorizonError};
@@ -216,20 +217,26 @@ impl<'a> Pile<'a> {
         let [columns, rows] = [counts.x as usize + 1, counts.y as usize + 1];
         let node = |i: usize, j: usize| low + step * DVec2::new(i as f64, j as f64);
         let heights: Vec<Vec<f64>> = (0..rows)
+            .into_par_iter()
             .map(|j| (0..columns).map(|i| self.height(node(i, j))).collect())
             .collect();
         let surface = Horizon::grid([low.x, high.x], [low.y, high.y], &heights)?;
-        let mut deviation = 0.0_f64;
-        for i in 0..columns - 1 {
+        let off = |i: usize| {
+            let mut farthest = 0.0_f64;
             for j in 0..rows - 1 {
                 for k in 0..PROBES * PROBES {
                     let part = DVec2::new((k % PROBES) as f64, (k / PROBES) as f64) / PROBES as f64;
                     let at = node(i, j) + step * part;
                     let off = surface.height(at.x, at.y) - self.height(at);
-                    deviation = deviation.max(off.abs());
+                    farthest = farthest.max(off.abs());
                 }
             }
-        }
+            farthest
+        };
+        let deviation = (0..columns - 1)
+            .into_par_iter()
+            .map(off)
+            .reduce(|| 0.0, f64::max);
         Ok(Floor {
             surface,
             deviation,

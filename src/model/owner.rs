@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::cells::Cells;
 use super::interior::{Interior, InteriorError, around};
 use super::realisation::{Instance, Realisation};
-use super::rules::{Rules, Verdict};
+use super::rules::{Rules, Takers, Verdict};
 use crate::features::extent::Extent;
 
 /// Answers `owner(p)` for one realisation.
@@ -22,6 +22,7 @@ pub struct Owners {
     interiors: Vec<Interior>,
     /// Which bodies may hold a place.
     cells: Arc<Cells>,
+    takers: Arc<Takers>,
 }
 
 /// A body that has no inside.
@@ -63,6 +64,7 @@ impl Owners {
         let block = [extent.low(), extent.high()];
         Ok(Self {
             cells: Arc::new(Cells::new(block, &interiors, &realisation.rules)),
+            takers: Arc::new(Takers::new(realisation.rules.len())),
             extent,
             rules: realisation.rules.clone(),
             interiors,
@@ -76,8 +78,9 @@ impl Owners {
 
     fn owner(&self, point: DVec3) -> usize {
         let (first, younger) = self.cells.at(point);
-        self.rules
-            .owner_since(first, younger, |body| self.inside(body, point))
+        self.rules.owner_by(&self.takers, first, younger, |body| {
+            self.inside(body, point)
+        })
     }
 
     /// Whether a volume's body holds a point, by its shell or side alone.

@@ -24,10 +24,12 @@
 //! block, moved: they take from what is in the block alone. So a block's volume is to them what the background is to what is in no block.
 
 mod meeting;
+mod takers;
 
 use serde::{Deserialize, Serialize};
 
 use super::values::selector::{Pick, Selector};
+pub(super) use takers::Takers;
 
 /// The volume that every place belongs to first.
 pub const BACKGROUND: usize = 0;
@@ -306,17 +308,25 @@ impl Rules {
         &self,
         first: usize,
         younger: impl IntoIterator<Item = usize>,
+        inside: impl FnMut(usize) -> bool,
+    ) -> usize {
+        self.owner_by(&Takers::new(0), first, younger, inside)
+    }
+
+    /// The same, by verdicts that are remembered.
+    pub(super) fn owner_by(
+        &self,
+        takers: &Takers,
+        first: usize,
+        younger: impl IntoIterator<Item = usize>,
         mut inside: impl FnMut(usize) -> bool,
     ) -> usize {
-        let takes = |holder, body| {
-            let takes = self.verdict(body, holder) == Verdict::Takes;
-            if takes && self.holds(body, &mut inside) {
-                body
-            } else {
-                holder
+        let (mut holder, mut row) = (first, takers.of(first));
+        for body in younger {
+            if self.takes(row, body, holder) && self.holds(body, &mut inside) {
+                (holder, row) = (body, takers.of(body));
             }
-        };
-        let holder = younger.into_iter().fold(first, takes);
+        }
         self.whole(holder)
     }
 

@@ -4,12 +4,29 @@
 
 /// Values of the `degree + 1` basis functions that are not zero on the given span (PT97 A2.2).
 pub(super) fn values(knots: &[f64], degree: usize, span: usize, u: f64, out: &mut [f64]) {
+    // With the usual degrees as constants nothing is looped over.
+    match degree {
+        1 => values_of::<1>(&knots[span..=span + 1], u, out),
+        2 => values_of::<2>(&knots[span - 1..=span + 2], u, out),
+        3 => values_of::<3>(&knots[span - 2..=span + 3], u, out),
+        _ => values_by(&knots[span + 1 - degree..=span + degree], degree, u, out),
+    }
+}
+
+#[inline]
+fn values_of<const P: usize>(knots: &[f64], u: f64, out: &mut [f64]) {
+    values_by(&knots[..2 * P], P, u, &mut out[..=P]);
+}
+
+/// The same by the `2 * degree` knots around the span.
+#[inline(always)]
+fn values_by(knots: &[f64], degree: usize, u: f64, out: &mut [f64]) {
     out[0] = 1.0;
     for j in 1..=degree {
         let mut saved = 0.0;
         for r in 0..j {
-            let right = knots[span + r + 1] - u;
-            let left = u - knots[span + 1 + r - j];
+            let right = knots[degree + r] - u;
+            let left = u - knots[degree + r - j];
             // As a fraction, so that a clamped end has its one function at one to the last bit.
             let share = out[r] * (left / (right + left));
             out[r] = saved + (out[r] - share);

@@ -70,19 +70,20 @@ pub(super) struct Jet {
 /// Second derivatives, in the order uu, uv, vv.
 pub(super) type Second = [DVec3; 3];
 
-/// Values and first and second derivatives of the Bernstein polynomials of one degree.
-struct Bernstein {
-    value: [f64; ORDER],
-    first: [f64; ORDER],
-    second: [f64; ORDER],
+/// Values and first and second derivatives of the Bernstein polynomials of one degree; `N` is how many there are, or the most.
+struct Bernstein<const N: usize> {
+    value: [f64; N],
+    first: [f64; N],
+    second: [f64; N],
 }
 
-impl Bernstein {
+impl<const N: usize> Bernstein<N> {
+    #[inline]
     fn new(degree: usize, s: f64, second: bool) -> Self {
         let mut all = Self {
-            value: [0.0; ORDER],
-            first: [0.0; ORDER],
-            second: [0.0; ORDER],
+            value: [0.0; N],
+            first: [0.0; N],
+            second: [0.0; N],
         };
         all.value[0] = 1.0;
         for k in 1..=degree {
@@ -197,12 +198,34 @@ impl Patch {
         self.evaluate(s, t, true)
     }
 
+    /// With the usual orders as constants nothing is looped over or copied.
     fn evaluate(&self, s: f64, t: f64, second: bool) -> (Jet, Second) {
-        let in_u = Bernstein::new(self.degree_u, s, second);
-        let in_v = Bernstein::new(self.degree_v, t, second);
+        match (self.degree_u, self.degree_v, second) {
+            (1, 1, false) => self.evaluate_of::<2, 2>(s, t, false),
+            (1, 3, false) => self.evaluate_of::<2, 4>(s, t, false),
+            (3, 1, false) => self.evaluate_of::<4, 2>(s, t, false),
+            (3, 3, false) => self.evaluate_of::<4, 4>(s, t, false),
+            _ => self.evaluate_of::<ORDER, ORDER>(s, t, second),
+        }
+    }
+
+    #[inline]
+    fn evaluate_of<const U: usize, const V: usize>(
+        &self,
+        s: f64,
+        t: f64,
+        second: bool,
+    ) -> (Jet, Second) {
+        let degree_u = if U == ORDER { self.degree_u } else { U - 1 };
+        let degree_v = if V == ORDER { self.degree_v } else { V - 1 };
+        let in_u = Bernstein::<U>::new(degree_u, s, second);
+        let in_v = Bernstein::<V>::new(degree_v, t, second);
         // Homogeneous value and derivatives: h, u, v, uu, uv, vv.
         let mut sums = [DVec4::ZERO; 6];
-        for (i, row) in self.net.chunks_exact(self.degree_v + 1).enumerate() {
+        for (i, row) in self.net.chunks_exact(degree_v + 1).enumerate() {
+            if i > degree_u {
+                break;
+            }
             let mut own = [DVec4::ZERO; 3];
             for (j, &h) in row.iter().enumerate() {
                 own[0] += in_v.value[j] * h;

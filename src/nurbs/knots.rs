@@ -156,6 +156,11 @@ impl Basis {
     pub fn values(&self) -> &[f64] {
         &self.values[..=self.degree]
     }
+
+    /// The values of cubics, which are most.
+    pub(super) fn usual(&self) -> Option<&[f64; 4]> {
+        self.values.first_chunk().filter(|_| self.degree == 3)
+    }
 }
 
 impl KnotVector {

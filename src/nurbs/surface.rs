@@ -2,11 +2,10 @@
 //!
 //! The net is u-major: the control point i in u and j in v is entry `i * nv + j`. Degrees may differ between u and v.
 
-use super::basis;
 use super::curve::{extent, from_homogeneous, to_homogeneous};
 use super::derive::surface_quotient;
 use super::knots::ORDER;
-use super::{Curve, ElevateError, KnotError, KnotVector};
+use super::{Basis, Curve, ElevateError, KnotError, KnotVector};
 use glam::{DVec3, DVec4, Vec4Swizzles};
 use thiserror::Error;
 
@@ -212,34 +211,33 @@ impl Surface {
 
     /// The point at (u, v).
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
-        let (u, v) = (self.u.clamp(u), self.v.clamp(v));
-        let (p, q) = (self.u.degree(), self.v.degree());
-        let (span_u, span_v) = (self.u.span(u), self.v.span(v));
-        let (mut in_u, mut in_v) = ([0.0; ORDER], [0.0; ORDER]);
-        basis::values(self.u.as_slice(), p, span_u, u, &mut in_u);
-        basis::values(self.v.as_slice(), q, span_v, v, &mut in_v);
-        let nv = self.v.count();
+        self.point_by(&self.u.basis(u), &self.v.basis(v))
+    }
+
+    /// The point where these are the basis functions of the knots in u and in v: of many points in rows and columns, those of
+    /// each row and column are needed once.
+    pub fn point_by(&self, in_u: &Basis, in_v: &Basis) -> DVec3 {
+        let (first, nv) = (in_u.first() * self.v.count() + in_v.first(), self.v.count());
+        if !self.rational {
+            // With the usual number of functions as a constant nothing is looped over.
+            return match (in_u.usual(), in_v.usual()) {
+                (Some(u), Some(v)) => polynomial(&self.net[first..], nv, u, v),
+                _ => polynomial(&self.net[first..], nv, in_u.values(), in_v.values()),
+            };
+        }
         let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
-        for (i, &n) in in_u[..=p].iter().enumerate() {
-            let first = (span_u - p + i) * nv + span_v - q;
-            let points = &self.net[first..=first + q];
-            let mut row = DVec3::ZERO;
-            if self.rational {
-                let weights = &self.weights[first..=first + q];
-                let mut row_weight = 0.0;
-                for ((&point, &w), &m) in points.iter().zip(weights).zip(&in_v) {
-                    row += m * w * point;
-                    row_weight += m * w;
-                }
-                weight += n * row_weight;
-            } else {
-                for (&point, &m) in points.iter().zip(&in_v) {
-                    row += m * point;
-                }
+        for (i, &n) in in_u.values().iter().enumerate() {
+            let own = first + i * nv..;
+            let (points, weights) = (&self.net[own.clone()], &self.weights[own]);
+            let (mut row, mut row_weight) = (DVec3::ZERO, 0.0);
+            for ((&point, &w), &m) in points.iter().zip(weights).zip(in_v.values()) {
+                row += m * w * point;
+                row_weight += m * w;
             }
+            weight += n * row_weight;
             sum += n * row;
         }
-        if self.rational { sum / weight } else { sum }
+        sum / weight
     }
 
     /// The point and its derivatives, exact to rounding (PT97 A3.6, A4.4): entry `[k][l]`, `k + l ≤ order`, is the
@@ -388,6 +386,25 @@ impl Surface {
             Err(SurfaceError::Index { i, j, u, v })
         }
     }
+}
+
+/// The sum of basis functions in u and v times control points, of which rows begin `row` apart.
+#[inline]
+fn polynomial<U, V>(net: &[DVec3], row: usize, in_u: &U, in_v: &V) -> DVec3
+where
+    U: AsRef<[f64]> + ?Sized,
+    V: AsRef<[f64]> + ?Sized,
+{
+    let mut sum = DVec3::ZERO;
+    for (i, &n) in in_u.as_ref().iter().enumerate() {
+        let points = &net[i * row..][..in_v.as_ref().len()];
+        let mut own = DVec3::ZERO;
+        for (&point, &m) in points.iter().zip(in_v.as_ref()) {
+            own += m * point;
+        }
+        sum += n * own;
+    }
+    sum
 }
 
 fn check_point(i: usize, j: usize, value: DVec3) -> Result<(), SurfaceError> {

@@ -82,59 +82,54 @@ const HALVINGS: u32 = 12;
 /// no halving makes exact to a share of it.
 const INNER_HALVINGS: u32 = 5;
 
+/// A node with its weight, and with that of a poorer rule, to compare with.
+type Node = (f64, f64, f64);
+
 /// A rule, and the weights with which some of its nodes make a poorer rule, to compare with.
 #[derive(Clone, Copy)]
-struct Pair {
-    rule: Rule,
-    poor: &'static [f64],
+enum Pair {
+    /// Three nodes, and the middle alone.
+    ThreeOne,
+    /// Five nodes, and the middle with the outermost two (exact up to degree 3).
+    FiveThree,
+    /// Ten nodes, and six of them (exact up to degree 5).
+    TenSix,
 }
 
-impl Pair {
-    /// How many nodes there are.
-    fn count(self) -> usize {
-        2 * self.rule.len() - self.odd()
-    }
+/// Weights of the poorer rules, as those of the rules are listed.
+const ONE: &[f64] = &[2.0, 0.0];
+const OUTERMOST: &[f64] = &[1.188_142_245_808_067_3, 0.0, 0.405_928_877_095_966_4];
+const SIX: &[f64] = &[
+    0.412_203_382_983_834_97,
+    0.0,
+    0.479_206_679_020_842_4,
+    0.0,
+    0.108_589_937_995_322_4,
+];
 
-    /// 1 if there is one in the middle.
-    fn odd(self) -> usize {
-        usize::from(self.rule[0].0 == 0.0)
+/// All nodes: the middle one if there is one, then those on either side of it.
+const fn nodes<const N: usize>(rule: Rule, poor: &[f64]) -> [Node; N] {
+    let mut nodes = [(0.0, 0.0, 0.0); N];
+    let odd = N % 2;
+    let mut k = 0;
+    while k < N {
+        let at = k + odd;
+        let (x, weight) = rule[at / 2];
+        let x = if at.is_multiple_of(2) { x } else { -x };
+        nodes[k] = (x, weight, poor[at / 2]);
+        k += 1;
     }
-
-    /// A node with its weight, and with that of the poorer rule.
-    fn node(self, k: usize) -> (f64, f64, f64) {
-        let k = k + self.odd();
-        let (x, weight) = self.rule[k / 2];
-        let x = if k.is_multiple_of(2) { x } else { -x };
-        (x, weight, self.poor[k / 2])
-    }
+    nodes
 }
 
-/// Three nodes, and the middle alone.
-const THREE_ONE: Pair = Pair {
-    rule: THREE,
-    poor: &[2.0, 0.0],
-};
-/// Five nodes, and the middle with the outermost two (exact up to degree 3).
-const FIVE_THREE: Pair = Pair {
-    rule: FIVE,
-    poor: &[1.188_142_245_808_067_3, 0.0, 0.405_928_877_095_966_4],
-};
-/// Ten nodes, and six of them (exact up to degree 5).
-const TEN_SIX: Pair = Pair {
-    rule: TEN,
-    poor: &[
-        0.412_203_382_983_834_97,
-        0.0,
-        0.479_206_679_020_842_4,
-        0.0,
-        0.108_589_937_995_322_4,
-    ],
-};
+const THREE_ONE: [Node; 3] = nodes(THREE, ONE);
+const FIVE_THREE: [Node; 5] = nodes(FIVE, OUTERMOST);
+const TEN_SIX: [Node; 10] = nodes(TEN, SIX);
 
 /// For pieces of computed curves: so short that a curve of degree 5 follows them to the tolerance.
-const PIECE: Pair = THREE_ONE;
+const PIECE: Pair = Pair::ThreeOne;
 /// The same on rational sheets: beside a pole, what lies across a piece varies faster than the piece does.
-const RATIONAL_PIECE: Pair = TEN_SIX;
+const RATIONAL_PIECE: Pair = Pair::TenSix;
 
 /// How far a piece must go beyond a knot to pass it, as a share of all parameters.
 const PASSED: f64 = 1e-9;
@@ -142,10 +137,10 @@ const PASSED: f64 = 1e-9;
 /// Which rule integrates polynomials of a sheet's flux exactly (degree 3d − 1), and others well.
 fn rule(degree: usize, rational: bool) -> Pair {
     match (degree, rational) {
-        (_, true) => TEN_SIX,
-        (0..=2, _) => THREE_ONE,
-        (3, _) => FIVE_THREE,
-        _ => TEN_SIX,
+        (_, true) => Pair::TenSix,
+        (0..=2, _) => Pair::ThreeOne,
+        (3, _) => Pair::FiveThree,
+        _ => Pair::TenSix,
     }
 }
 
@@ -174,64 +169,148 @@ fn missed(difference: f64, spread: f64) -> f64 {
     }
 }
 
-fn adaptive(pair: Pair, from: f64, to: f64, goal: Goal, at: &mut impl FnMut(f64) -> Sum) -> Sum {
-    // With the number of nodes as a constant, nothing is looped over or copied.
-    match pair.count() {
-        3 => adaptive_of::<3>(pair, from, to, goal, at),
-        5 => adaptive_of::<5>(pair, from, to, goal, at),
-        _ => adaptive_of::<10>(pair, from, to, goal, at),
+/// What is integrated: a [`Sum`] along a loop, and what has no errors yet across.
+trait Summand: Copy + Default {
+    fn area(&self) -> f64;
+    fn flux(&self) -> f64;
+    fn vector(&self) -> DVec3;
+    fn plus_times(self, other: &Self, factor: f64) -> Self;
+    fn sum(self) -> Sum;
+}
+
+impl Summand for Sum {
+    fn area(&self) -> f64 {
+        self.own.area
+    }
+
+    fn flux(&self) -> f64 {
+        self.own.flux
+    }
+
+    fn vector(&self) -> DVec3 {
+        self.vector
+    }
+
+    fn plus_times(self, other: &Self, factor: f64) -> Self {
+        self.plus(other.times(factor))
+    }
+
+    fn sum(self) -> Sum {
+        self
     }
 }
 
-fn adaptive_of<const N: usize>(
+/// A part of a sheet, as one parameter has it.
+#[derive(Clone, Copy, Default)]
+struct Part {
+    area: f64,
+    flux: f64,
+    vector: DVec3,
+}
+
+impl Summand for Part {
+    fn area(&self) -> f64 {
+        self.area
+    }
+
+    fn flux(&self) -> f64 {
+        self.flux
+    }
+
+    fn vector(&self) -> DVec3 {
+        self.vector
+    }
+
+    fn plus_times(self, other: &Self, factor: f64) -> Self {
+        Self {
+            area: self.area + other.area * factor,
+            flux: self.flux + other.flux * factor,
+            vector: self.vector + other.vector * factor,
+        }
+    }
+
+    fn sum(self) -> Sum {
+        Sum {
+            own: Integral {
+                area: self.area,
+                flux: self.flux,
+                ..Integral::default()
+            },
+            vector: self.vector,
+        }
+    }
+}
+
+fn adaptive<S: Summand>(
     pair: Pair,
     from: f64,
     to: f64,
     goal: Goal,
-    at: &mut impl FnMut(f64) -> Sum,
+    at: &mut impl FnMut(f64) -> S,
+) -> Sum {
+    // With the nodes as constants nothing is looped over or copied.
+    match pair {
+        Pair::ThreeOne => adaptive_of(&THREE_ONE, from, to, goal, at),
+        Pair::FiveThree => adaptive_of(&FIVE_THREE, from, to, goal, at),
+        Pair::TenSix => adaptive_of(&TEN_SIX, from, to, goal, at),
+    }
+}
+
+fn adaptive_of<S: Summand, const N: usize>(
+    nodes: &[Node; N],
+    from: f64,
+    to: f64,
+    goal: Goal,
+    at: &mut impl FnMut(f64) -> S,
 ) -> Sum {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let nodes: [(f64, f64, f64); N] = std::array::from_fn(|k| pair.node(k));
     let values = nodes.map(|(x, _, _)| at(middle + half * x));
-    let mut sum = Sum::default();
+    let mut all = S::default();
     for (value, (_, weight, _)) in values.iter().zip(nodes) {
-        sum = sum.plus(value.times(weight));
+        all = all.plus_times(value, *weight);
     }
     // Areas beside what the mean normal sees of them: that part is a polynomial.
-    let normal = sum.vector.normalize_or_zero();
-    let own = values.map(|value| [value.own.area - value.vector.dot(normal), value.own.flux]);
-    let means = [sum.own.area - sum.vector.dot(normal), sum.own.flux].map(|all| 0.5 * all);
-    let (mut differences, mut spreads) = ([0.0; 2], [0.0; 2]);
-    for (own, (_, weight, poor)) in own.iter().zip(nodes) {
-        for k in 0..2 {
-            differences[k] += (poor - weight) * own[k];
-            spreads[k] += weight * (own[k] - means[k]).abs();
-        }
-    }
-    let area_error = missed(differences[0].abs(), spreads[0]);
+    let normal = all.vector().normalize_or_zero();
+    let areas = values.map(|value| value.area() - value.vector().dot(normal));
+    let area_error = off(nodes, &areas, all.area() - all.vector().dot(normal));
     let flux_error = if goal.exact {
         0.0
     } else {
-        missed(differences[1].abs(), spreads[1])
+        off(nodes, &values.map(|value| value.flux()), all.flux())
     };
     if goal.halvings > 0 {
         let sizes = values.iter().zip(nodes);
-        let size: f64 = sizes
-            .map(|(value, node)| node.1 * value.own.area.abs())
-            .sum();
+        let size: f64 = sizes.map(|(value, node)| node.1 * value.area().abs()).sum();
         if area_error > 0.5 * AREA * size || flux_error > 0.5 * goal.flux * size {
             let fewer = Goal {
                 halvings: goal.halvings - 1,
                 ..goal
             };
             // Ten nodes from here on: what needs halving at all is settled by few halvings then.
-            return adaptive(TEN_SIX, from, middle, fewer, at)
-                .plus(adaptive(TEN_SIX, middle, to, fewer, at));
+            return adaptive(Pair::TenSix, from, middle, fewer, at).plus(adaptive(
+                Pair::TenSix,
+                middle,
+                to,
+                fewer,
+                at,
+            ));
         }
     }
+    let mut sum = all.sum();
     sum.own.area_error += area_error;
     sum.own.flux_error += flux_error;
     sum.times(half)
+}
+
+/// By how much a rule may be off of something with these values and this sum.
+fn off<const N: usize>(nodes: &[Node; N], values: &[f64; N], sum: f64) -> f64 {
+    let mean = 0.5 * sum;
+    let (mut difference, mut spread) = (0.0, 0.0);
+    for (value, (_, weight, poor)) in values.iter().zip(nodes) {
+        difference += (poor - weight) * value;
+        spread += weight * (value - mean).abs();
+    }
+    missed(f64::abs(difference), spread)
 }
 
 /// The integral of something smooth by one rule.
@@ -601,12 +680,9 @@ impl<'a> Across<'a> {
             } else {
                 other.cross(along)
             };
-            Sum {
-                own: Integral {
-                    area: normal.length(),
-                    flux: (p - self.middle).dot(normal) / 3.0,
-                    ..Integral::default()
-                },
+            Part {
+                area: normal.length(),
+                flux: (p - self.middle).dot(normal) / 3.0,
                 vector: normal,
             }
         })
@@ -656,9 +732,13 @@ mod tests {
         for power in -60..=20 {
             let steep = 1.2_f64.powi(power);
             let wanted = length(steep);
-            for pair in [THREE_ONE, FIVE_THREE, TEN_SIX] {
+            for (pair, count) in [
+                (Pair::ThreeOne, 3),
+                (Pair::FiveThree, 5),
+                (Pair::TenSix, 10),
+            ] {
                 let [whole, halved] = [0, HALVINGS].map(|halvings| graph(pair, steep, halvings));
-                let words = format!("{steep}, {} nodes", pair.rule.len());
+                let words = format!("{steep}, {count} nodes");
                 assert!(
                     halved.area_error <= AREA * wanted,
                     "{words}: {}",
@@ -683,17 +763,10 @@ mod tests {
 
     #[test]
     fn poorer_rules_integrate_what_they_are_said_to() {
-        for (pair, degree) in [(THREE_ONE, 1), (FIVE_THREE, 3), (TEN_SIX, 5)] {
+        let all: [(&[Node], i32); 3] = [(&THREE_ONE, 1), (&FIVE_THREE, 3), (&TEN_SIX, 5)];
+        for (nodes, degree) in all {
             for power in 0..=degree {
-                let sum: f64 = pair
-                    .rule
-                    .iter()
-                    .zip(pair.poor)
-                    .map(|((x, _), poor)| {
-                        let mirrored = if *x == 0.0 { 0.0 } else { (-x).powi(power) };
-                        poor * (x.powi(power) + mirrored)
-                    })
-                    .sum();
+                let sum: f64 = nodes.iter().map(|(x, _, poor)| poor * x.powi(power)).sum();
                 let wanted = if power % 2 == 0 {
                     2.0 / f64::from(power + 1)
                 } else {

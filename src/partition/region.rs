@@ -143,11 +143,15 @@ impl Regions {
     pub(super) fn may_pierce(&self, ends: [usize; 2], third: usize) -> bool {
         let region = self.sheets[third].region;
         let own = ends.map(|end| self.sheets[end].region);
-        let inner: Vec<usize> = own.into_iter().filter(|own| *own != DOMAIN).collect();
-        !ends
-            .iter()
-            .any(|end| self.touch(*end, third) || self.are_twins(*end, third))
-            && (inner.is_empty() || inner.iter().any(|own| self.relations.meet(*own, region)))
+        // First what is quick, and most often says no.
+        let matters = own == [DOMAIN; 2]
+            || own
+                .iter()
+                .any(|own| *own != DOMAIN && self.relations.meet(*own, region));
+        matters
+            && !ends
+                .iter()
+                .any(|end| self.touch(*end, third) || self.are_twins(*end, third))
     }
 
     /// Makes an open border that lies on a level sheet of another region an edge.

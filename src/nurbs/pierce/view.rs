@@ -153,15 +153,29 @@ impl View {
         None
     }
 
-    /// The value and both derivatives.
+    /// The value and both derivatives. With the usual orders as constants nothing is looped over.
     fn jet(&self, at: DVec2) -> (DVec2, DVec2, DVec2) {
-        let mut values = [DVec2::ZERO; ORDER];
-        let mut slopes = [DVec2::ZERO; ORDER];
-        for (i, row) in self.net.chunks_exact(self.columns).enumerate() {
-            (values[i], slopes[i]) = casteljau(row, at.y);
+        match (self.rows, self.columns) {
+            (2, 2) => self.jet_of::<2, 2>(at),
+            (2, 4) => self.jet_of::<2, 4>(at),
+            (4, 2) => self.jet_of::<4, 2>(at),
+            (4, 4) => self.jet_of::<4, 4>(at),
+            _ => self.jet_of::<ORDER, ORDER>(at),
         }
-        let (value, s) = casteljau(&values[..self.rows], at.x);
-        (value, s, casteljau(&slopes[..self.rows], at.x).0)
+    }
+
+    /// The same; `R` and `C` are the orders, or the most.
+    #[inline]
+    fn jet_of<const R: usize, const C: usize>(&self, at: DVec2) -> (DVec2, DVec2, DVec2) {
+        let rows = if R == ORDER { self.rows } else { R };
+        let columns = if C == ORDER { self.columns } else { C };
+        let mut values = [DVec2::ZERO; R];
+        let mut slopes = [DVec2::ZERO; R];
+        for (i, row) in self.net.chunks_exact(columns).take(rows).enumerate() {
+            (values[i], slopes[i]) = casteljau::<C>(row, at.y);
+        }
+        let (value, s) = casteljau::<R>(&values[..rows], at.x);
+        (value, s, casteljau::<R>(&slopes[..rows], at.x).0)
     }
 
     pub(super) fn halves(&self) -> [Self; 2] {
@@ -203,13 +217,14 @@ impl View {
     }
 }
 
-/// Value and derivative of a Bézier curve.
-fn casteljau(points: &[DVec2], t: f64) -> (DVec2, DVec2) {
+/// Value and derivative of a Bézier curve; `N` is the number of its points, or the most.
+#[inline]
+fn casteljau<const N: usize>(points: &[DVec2], t: f64) -> (DVec2, DVec2) {
     let degree = points.len() - 1;
     if degree == 0 {
         return (points[0], DVec2::ZERO);
     }
-    let mut work = [DVec2::ZERO; ORDER];
+    let mut work = [DVec2::ZERO; N];
     work[..=degree].copy_from_slice(points);
     for round in 1..degree {
         for k in 0..=degree - round {
