@@ -143,11 +143,12 @@ impl Regions {
     pub(super) fn may_pierce(&self, ends: [usize; 2], third: usize) -> bool {
         let region = self.sheets[third].region;
         let own = ends.map(|end| self.sheets[end].region);
-        let inner: Vec<usize> = own.into_iter().filter(|own| *own != DOMAIN).collect();
-        !ends
-            .iter()
-            .any(|end| self.touch(*end, third) || self.are_twins(*end, third))
-            && (inner.is_empty() || inner.iter().any(|own| self.relations.meet(*own, region)))
+        let mut inner = own.into_iter().filter(|own| *own != DOMAIN);
+        let may_matter = own == [DOMAIN; 2] || inner.any(|own| self.relations.meet(own, region));
+        may_matter
+            && !ends
+                .iter()
+                .any(|end| self.touch(*end, third) || self.are_twins(*end, third))
     }
 
     /// Makes an open border that lies on a level sheet of another region an edge.
