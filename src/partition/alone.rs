@@ -18,7 +18,7 @@ use glam::DVec3;
 
 use super::facet::Facet;
 use super::hermite::{self, Branch, End, Node};
-use super::patch::Cones;
+use super::patch::{Cones, slopes};
 
 /// How far beyond a patch its border still is, as a fraction of its parameters: curves may run along borders.
 pub(super) const BORDER: f64 = 1e-9;
@@ -49,31 +49,18 @@ pub(super) struct Chords {
 impl Chords {
     /// Of two patches, and of a little around them as a fraction of their parameters; `None` if no parameter is known to be one.
     pub(super) fn new(a: &Facet, b: &Facet, slack: f64) -> Option<Self> {
-        let is_monotone = by_cones([a.cones, b.cones], slack);
+        let is_monotone = by_cones([a, b].map(|facet| *facet.cones()), slack);
         Self::with(is_monotone, [a, b], slack)
     }
 
-    /// Of two patches one of which goes on behind a border, where one of the four parameters ends: with the cones of all of both,
-    /// and how far it goes on. Of the other parameters a little around the patches counts, too, as far as their polynomials reach.
-    pub(super) fn going_on(
-        [a, b]: [&Facet; 2],
-        cones: [Cones; 2],
-        (parameter, end): (usize, f64),
-        slack: f64,
-        polynomials: Ranges,
-    ) -> Option<Self> {
-        let mut chords = Self::with(by_cones(cones, slack), [a, b], BORDER)?;
-        for (k, range) in chords.ranges.iter_mut().enumerate() {
-            let more = slack * (range[1] - range[0]);
-            let ends = if k == parameter {
-                [end, end]
-            } else {
-                let [low, high] = polynomials[k];
-                [(range[0] - more).max(low), (range[1] + more).min(high)]
-            };
-            *range = [range[0].min(ends[0]), range[1].max(ends[1])];
-        }
-        Some(chords)
+    /// Of two patches one of which goes on behind a border: with the cones of all of both, and [how far](reach) they go on.
+    pub(super) fn going_on(cones: [Cones; 2], slack: f64, ranges: Ranges) -> Option<Self> {
+        let is_monotone = by_cones(cones, slack);
+        (is_monotone != [false; 4]).then_some(Self {
+            ranges,
+            slack: BORDER,
+            is_monotone,
+        })
     }
 
     /// The same by slopes: for sheets that are nearly parallel.
@@ -86,13 +73,8 @@ impl Chords {
         if is_monotone == [false; 4] {
             return None;
         }
-        let (a, b) = (&a.patch, &b.patch);
-        let ranges = [a.u, a.v, b.u, b.v].map(|[low, high]| {
-            let more = slack * (high - low);
-            [low - more, high + more]
-        });
         Some(Self {
-            ranges,
+            ranges: ranges([a, b], slack),
             slack,
             is_monotone,
         })
@@ -101,14 +83,9 @@ impl Chords {
     /// Whether a curve that passes through the patches at a parameter of its own is all that they have in common; with the
     /// lengths of the sheets' parameters.
     pub(super) fn has_only(&self, branch: &Branch, t: f64, lengths: [f64; 4]) -> bool {
-        self.holds(&Self::parameters(branch, t))
+        self.holds(&parameters(branch, t))
             && self.ends(branch, t, true, lengths)
             && self.ends(branch, t, false, lengths)
-    }
-
-    fn parameters(branch: &Branch, t: f64) -> [f64; 4] {
-        let value = branch.value(t);
-        std::array::from_fn(|k| value[3 + k])
     }
 
     fn beyond(&self, q: &[f64; 4]) -> [bool; 4] {
@@ -116,7 +93,7 @@ impl Chords {
     }
 
     fn holds(&self, q: &[f64; 4]) -> bool {
-        self.beyond(q) == [false; 4]
+        hold(&self.ranges, q)
     }
 
     /// Whether nothing lies behind the end of a curve's part in the patches, one way from a place in it.
@@ -220,6 +197,49 @@ impl Chords {
     }
 }
 
+/// The ranges of two patches, and of a little around them as a fraction of their parameters.
+fn ranges([a, b]: [&Facet; 2], slack: f64) -> Ranges {
+    let (a, b) = (&a.patch, &b.patch);
+    [a.u, a.v, b.u, b.v].map(|[low, high]| {
+        let more = slack * (high - low);
+        [low - more, high + more]
+    })
+}
+
+/// The same of two patches one of which goes on behind a border, where one of the four parameters ends. Of the other
+/// parameters a little around the patches counts, too, as far as their polynomials reach.
+pub(super) fn reach(
+    facets: [&Facet; 2],
+    (parameter, end): (usize, f64),
+    slack: f64,
+    polynomials: Ranges,
+) -> Ranges {
+    let mut ranges = ranges(facets, BORDER);
+    for (k, range) in ranges.iter_mut().enumerate() {
+        let more = slack * (range[1] - range[0]);
+        let ends = if k == parameter {
+            [end, end]
+        } else {
+            let [low, high] = polynomials[k];
+            [(range[0] - more).max(low), (range[1] + more).min(high)]
+        };
+        *range = [range[0].min(ends[0]), range[1].max(ends[1])];
+    }
+    ranges
+}
+
+/// The four parameters of a curve at its own.
+pub(super) fn parameters(branch: &Branch, t: f64) -> [f64; 4] {
+    let value = branch.value(t);
+    std::array::from_fn(|k| value[3 + k])
+}
+
+/// Whether ranges hold parameters.
+pub(super) fn hold(ranges: &Ranges, q: &[f64; 4]) -> bool {
+    // Written so that NaN fails.
+    (0..4).all(|k| ranges[k][0] <= q[k] && q[k] <= ranges[k][1])
+}
+
 /// By how much cones are wider where curves a little beside patches count.
 fn wider(slack: f64) -> f64 {
     if slack > BORDER { WIDER } else { 1.0 }
@@ -251,7 +271,7 @@ pub(super) struct Frame {
 impl Frame {
     /// Of two patches; `None` if normals at their corners tell that none of their parameters would be found so.
     pub(super) fn of(a: &Facet, b: &Facet) -> Option<Self> {
-        let [(one, _), (other, _)] = [a.cones.normals?, b.cones.normals?];
+        let [(one, _), (other, _)] = [a.cones().normals?, b.cones().normals?];
         let other = if one.dot(other) < 0.0 { -other } else { other };
         let upright = (one + other).try_normalize()?;
         let along = (one - other).try_normalize()?;
@@ -268,9 +288,10 @@ fn by_slopes(
 ) -> Option<[bool; 4]> {
     let across = upright.cross(along);
     let wider = wider(slack) - 1.0;
+    let legs = facets.map(|facet| facet.patch.legs());
     // How the slopes differ along a direction.
     let difference = |direction: DVec3| {
-        let [own, other] = facets.map(|facet| facet.patch.slopes(direction, upright));
+        let [own, other] = [0, 1].map(|side| slopes(&legs[side], direction, upright));
         let ([low, high], [least, most]) = (own?, other?);
         let more = 0.5 * wider * ((high - low) + (most - least));
         Some([low - most - more, high - least + more])
@@ -305,10 +326,9 @@ fn by_slopes(
         })
     };
     let mut is_monotone = [false; 4];
-    for (side, facet) in facets.into_iter().enumerate() {
-        let [u, v] = facet.patch.legs();
-        is_monotone[2 * side] = has_sign(&v);
-        is_monotone[2 * side + 1] = has_sign(&u);
+    for (side, [u, v]) in legs.iter().enumerate() {
+        is_monotone[2 * side] = has_sign(v);
+        is_monotone[2 * side + 1] = has_sign(u);
     }
     Some(is_monotone)
 }

@@ -4,6 +4,8 @@
 //! must end at roots; what is left to find are branches that close, or that come in from outside. A root is
 //! used exactly once from each sheet of its edge: a check that needs no reference.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -138,10 +140,14 @@ impl Crossings {
             clip,
             stop,
         } = settings;
+        let by_pair = by_pair(regions, &roots);
         let traced: Vec<Traced> = pairs(regions, &clip, tolerances)
             .into_par_iter()
             .filter(|_| !stop())
-            .map(|sheets| trace(regions, sheets, &roots, &touches, settings))
+            .map(|sheets| {
+                let own = by_pair.get(&sheets).map_or(&[][..], Vec::as_slice);
+                trace(regions, sheets, own, &touches, settings)
+            })
             .collect();
         let mut crossings = Vec::new();
         let mut doubtful = Vec::new();
@@ -200,11 +206,17 @@ fn pairs(regions: &Regions, clip: &Bounds, tolerances: Tolerances) -> Vec<[usize
     let sheets = &regions.sheets;
     let mut pairs = Vec::new();
     for (i, a) in sheets.iter().enumerate() {
+        if !a.bounds().meets(clip) {
+            continue;
+        }
         let around = a.bounds().grown(tolerances.curve);
         for (j, b) in sheets.iter().enumerate().skip(i + 1) {
-            let near = around.meets(b.bounds()) && a.bounds().meets(clip) && b.bounds().meets(clip);
-            let apart = a.region == b.region || regions.touch(i, j);
-            if near && !apart && regions.relations.meet(a.region, b.region) {
+            let near = around.meets(b.bounds()) && b.bounds().meets(clip);
+            if near
+                && a.region != b.region
+                && regions.relations.meet(a.region, b.region)
+                && !regions.touch(i, j)
+            {
                 pairs.push([i, j]);
             }
         }
@@ -226,8 +238,10 @@ pub(super) fn edge_roots(
             return (roots, undecided);
         }
         for (sheet, other) in regions.sheets.iter().enumerate() {
-            let wanted = other.region != own.region && regions.may_pierce(own.sheets(), sheet);
-            if !wanted || !other.bounds().meets(&own.bounds) {
+            let wanted = other.region != own.region
+                && other.bounds().meets(&own.bounds)
+                && regions.may_pierce(own.sheets(), sheet);
+            if !wanted {
                 continue;
             }
             let on_height = own
@@ -280,7 +294,7 @@ fn far(regions: &Regions, clip: &Bounds) -> Bounds {
 fn trace(
     regions: &Regions,
     sheets: [usize; 2],
-    roots: &[EdgeRoot],
+    roots: &[(usize, EdgeRoot)],
     touches: &Touches<'_>,
     settings: Settings<'_>,
 ) -> Traced {
@@ -301,7 +315,7 @@ fn trace(
 fn follow(
     regions: &Regions,
     (sheets, pair): ([usize; 2], Pair<'_>),
-    roots: &[EdgeRoot],
+    roots: &[(usize, EdgeRoot)],
     Settings {
         tolerances, clip, ..
     }: Settings<'_>,
@@ -387,9 +401,27 @@ fn follow(
     }
 }
 
-fn starts(regions: &Regions, sheets: [usize; 2], roots: &[EdgeRoot]) -> Vec<Start> {
-    let mut starts = Vec::new();
+/// Roots with their numbers, by the pairs of sheets, in order, whose curves they begin.
+fn by_pair(regions: &Regions, roots: &[EdgeRoot]) -> BTreeMap<[usize; 2], Vec<(usize, EdgeRoot)>> {
+    let mut by_pair: BTreeMap<_, Vec<(usize, EdgeRoot)>> = BTreeMap::new();
     for (root, found) in roots.iter().enumerate() {
+        for side in regions.edges[found.edge].borders() {
+            let sheets = [side.sheet, found.sheet];
+            let sheets = [sheets[0].min(sheets[1]), sheets[0].max(sheets[1])];
+            let own = by_pair.entry(sheets).or_default();
+            // Both sides of an edge may be borders of one sheet.
+            if own.last().is_none_or(|last| last.0 != root) {
+                own.push((root, *found));
+            }
+        }
+    }
+    by_pair
+}
+
+/// The starts of the curves of a pair of sheets, of those roots that lie on both.
+fn starts(regions: &Regions, sheets: [usize; 2], roots: &[(usize, EdgeRoot)]) -> Vec<Start> {
+    let mut starts = Vec::new();
+    for &(root, ref found) in roots {
         let edge = &regions.edges[found.edge];
         for side in edge.borders() {
             for own in 0..2 {

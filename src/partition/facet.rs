@@ -2,6 +2,8 @@
 
 use std::sync::OnceLock;
 
+use glam::DVec3;
+
 use super::bounds::Bounds;
 use super::patch::{Along, Cones, Patch};
 
@@ -13,7 +15,10 @@ const KEPT: u8 = 5;
 #[derive(Clone, Debug)]
 pub(super) struct Facet {
     pub(super) patch: Patch,
-    pub(super) cones: Cones,
+    /// Once they were asked for: boxes keep most patches apart.
+    cones: OnceLock<Cones>,
+    /// The point and the tangents in its middle, once they were asked for.
+    middle: OnceLock<[DVec3; 3]>,
     /// How many halvings below a sheet's patch it is.
     depth: u8,
     halves: OnceLock<Box<[Self; 2]>>,
@@ -27,16 +32,30 @@ impl Facet {
 
     fn at(depth: u8, patch: Patch) -> Self {
         Self {
-            cones: patch.cones(),
+            cones: OnceLock::new(),
+            middle: OnceLock::new(),
             patch,
             depth,
             halves: OnceLock::new(),
         }
     }
 
+    /// The directions of its tangents and normals.
+    pub(super) fn cones(&self) -> &Cones {
+        self.cones.get_or_init(|| self.patch.cones())
+    }
+
+    /// The point and the tangents along u and v in its middle.
+    pub(super) fn middle(&self) -> &[DVec3; 3] {
+        self.middle.get_or_init(|| {
+            let [u, v] = self.patch.middle();
+            self.patch.first_jet(u, v).into()
+        })
+    }
+
     /// The sine of the normals' greatest angle from their axis.
     pub(super) fn lean(&self) -> f64 {
-        self.cones
+        self.cones()
             .normals
             .map_or(f64::INFINITY, |normals| normals.1)
     }
@@ -55,16 +74,20 @@ impl Facet {
                 }
             }
         } else {
-            self.patch.halve(self.along(), box_is_wanted, |half| {
-                if is_wanted(&half) {
-                    each(&Self::at(KEPT, half));
+            let halves = self.patch.bare_halves(self.along());
+            for mut half in halves.map(|half| Self::at(KEPT, half)) {
+                if box_is_wanted(&half.patch.bounds) {
+                    half.patch.measure();
+                    if is_wanted(&half.patch) {
+                        each(&half);
+                    }
                 }
-            });
+            }
         }
     }
 
     fn along(&self) -> Along {
-        if self.cones.normals.is_some() {
+        if self.cones().normals.is_some() {
             self.patch.longer()
         } else {
             self.patch.rounder()

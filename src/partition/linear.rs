@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::patch::Patch;
+use super::facet::Facet;
 
 /// Pairs of columns, each with the other two.
 const PAIRS: [[usize; 4]; 6] = [
@@ -31,11 +31,11 @@ pub(super) enum Guess {
 }
 
 /// What two patches do, a fraction of their sizes beside them included.
-pub(super) fn guess(a: &Patch, b: &Patch, beside: f64) -> Guess {
+pub(super) fn guess(one: &Facet, other: &Facet, beside: f64) -> Guess {
+    let (a, b) = (&one.patch, &other.patch);
     let ([u, v], [s, t]) = (a.middle(), b.middle());
     let half = [a.u, a.v, b.u, b.v].map(|[low, high]| 0.5 * (high - low));
-    let (p, pu, pv) = a.first_jet(u, v);
-    let (q, qs, qt) = b.first_jet(s, t);
+    let ([p, pu, pv], [q, qs, qt]) = (*one.middle(), *other.middle());
     let gap = p - q;
     let columns = [half[0] * pu, half[1] * pv, -half[2] * qs, -half[3] * qt];
     let most = 1.0 + 2.0 * beside;

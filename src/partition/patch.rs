@@ -12,7 +12,7 @@ use smallvec::SmallVec;
 use super::bounds::Bounds;
 
 pub(super) use evaluate::{Jet, Slice};
-pub(super) use normals::Cones;
+pub(super) use normals::{Cones, slopes};
 
 /// Most control points each way.
 pub(super) const ORDER: usize = 8;
@@ -34,7 +34,7 @@ pub(super) enum Along {
 pub(super) type Net = SmallVec<[DVec4; 16]>;
 
 /// A Bézier patch over a rectangle of its surface's parameters.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Patch {
     rows: usize,
     columns: usize,
@@ -48,6 +48,16 @@ pub(super) struct Patch {
     /// The direction across which it is likely to be thin, and its range along it.
     thin: DVec3,
     slab: [f64; 2],
+}
+
+impl Clone for Patch {
+    fn clone(&self) -> Self {
+        // In one piece, not point by point.
+        Self {
+            net: Net::from_slice(&self.net),
+            ..*self
+        }
+    }
 }
 
 impl Patch {
@@ -98,16 +108,29 @@ impl Patch {
     }
 
     /// Finds what it is thin across.
-    fn measure(&mut self) {
+    pub(super) fn measure(&mut self) {
         self.thin = self.thin_direction();
         self.slab = self.range_along(self.thin);
     }
 
     /// Whether a plane across its thin direction separates it from another patch, by more than a distance.
     pub(super) fn is_beside(&self, other: &Self, distance: f64) -> bool {
-        let range = other.range_along(self.thin);
-        let slack = distance * self.thin.length();
-        self.slab[0] > range[1] + slack || range[0] > self.slab[1] + slack
+        other.is_off(self.thin, self.slab, distance * self.thin.length())
+    }
+
+    /// Whether all of its control points are on one side of a range along a direction, by more than a slack.
+    fn is_off(&self, direction: DVec3, [low, high]: [f64; 2], slack: f64) -> bool {
+        let (mut below, mut above) = (true, true);
+        for p in points(&self.net, self.rational) {
+            let d = p.dot(direction);
+            below &= low > d + slack;
+            above &= d > high + slack;
+            // Most are not: few points tell.
+            if !below && !above {
+                return false;
+            }
+        }
+        true
     }
 
     /// Its thin direction, and its range along it.
@@ -225,24 +248,18 @@ impl Patch {
     }
 
     /// Its halves with their boxes; what they are thin across is not known yet.
-    fn bare_halves(&self, along: Along) -> [Self; 2] {
+    pub(super) fn bare_halves(&self, along: Along) -> [Self; 2] {
         let [u, v] = self.middle();
-        let (u, v) = match along {
-            Along::U => ([[self.u[0], u], [u, self.u[1]]], [self.v; 2]),
-            Along::V => ([self.u; 2], [[self.v[0], v], [v, self.v[1]]]),
-        };
-        let mut k = 0;
-        self.half_nets(along).map(|net| {
-            let half = Self {
-                bounds: Bounds::of(points(&net, self.rational)),
-                net,
-                u: u[k],
-                v: v[k],
-                ..*self
-            };
-            k += 1;
-            half
-        })
+        let (mut low, mut high) = (self.clone(), self.clone());
+        match along {
+            Along::U => (low.u[1], high.u[0]) = (u, u),
+            Along::V => (low.v[1], high.v[0]) = (v, v),
+        }
+        self.half_nets(along, [&mut low.net, &mut high.net]);
+        for half in [&mut low, &mut high] {
+            half.bounds = Bounds::of(points(&half.net, half.rational));
+        }
+        [low, high]
     }
 
     /// The part of it over a rectangle of its parameters; of its box nothing is known.
@@ -292,15 +309,24 @@ impl Patch {
         }
     }
 
-    fn half_nets(&self, along: Along) -> [Net; 2] {
+    /// Makes two copies of its net those of its halves (de Casteljau).
+    fn half_nets(&self, along: Along, halves: [&mut [DVec4]; 2]) {
+        match self.lines(along).1 {
+            1 => self.half_nets_of::<2>(along, halves),
+            3 => self.half_nets_of::<4>(along, halves),
+            _ => self.half_nets_of::<ORDER>(along, halves),
+        }
+    }
+
+    fn half_nets_of<const N: usize>(&self, along: Along, [low, high]: [&mut [DVec4]; 2]) {
         let (lines, degree, line_step, step) = self.lines(along);
-        let mut low = Net::from_slice(&self.net);
-        let mut high = Net::from_slice(&self.net);
+        let degree = if N == ORDER { degree } else { N - 1 };
+        let net = &self.net[..];
         for line in 0..lines {
             let at = |k: usize| line * line_step + k * step;
-            let mut work = [DVec4::ZERO; ORDER];
+            let mut work = [DVec4::ZERO; N];
             for (k, h) in work.iter_mut().take(degree + 1).enumerate() {
-                *h = self.net[at(k)];
+                *h = net[at(k)];
             }
             for round in 1..=degree {
                 for k in 0..=degree - round {
@@ -310,7 +336,6 @@ impl Patch {
                 high[at(degree - round)] = work[degree - round];
             }
         }
-        [low, high]
     }
 
     fn thin_direction(&self) -> DVec3 {

@@ -178,7 +178,7 @@ mod tests {
         for at in [0, 139, 140, 8_888, 150 * 140 - 1] {
             let [made, kept] = [&made, &kept].map(|patches| patches.facet(at));
             let [made_normals, kept_normals] =
-                [&made, &kept].map(|facet| facet.cones.normals.unwrap());
+                [&made, &kept].map(|facet| facet.cones().normals.unwrap());
             let [made, kept] = [&made.patch, &kept.patch];
             assert_eq!((made.u, made.v), (kept.u, kept.v));
             assert!(made.slab().0.distance(kept.slab().0) < 1e-12);

@@ -16,6 +16,8 @@ use super::solve::solve;
 pub(super) struct Segment {
     /// Homogeneous control points.
     points: SmallVec<[DVec4; 8]>,
+    /// Whether any weight is not 1.
+    rational: bool,
     /// Its part of the curve's parameters.
     pub(super) t: [f64; 2],
     bounds: Bounds,
@@ -56,11 +58,16 @@ type Few = SmallVec<[usize; 16]>;
 impl Segment {
     pub(super) fn new(points: impl IntoIterator<Item = DVec4>, t: [f64; 2]) -> Self {
         let points: SmallVec<[DVec4; 8]> = points.into_iter().collect();
-        let bounds = Bounds::of(points.iter().map(|h| h.xyz() / h.w));
+        let rational = points.iter().any(|h| h.w != 1.0);
+        Self::with(points, rational, t)
+    }
+
+    fn with(points: SmallVec<[DVec4; 8]>, rational: bool, t: [f64; 2]) -> Self {
         Self {
+            bounds: Bounds::of(points.iter().map(|h| place(h, rational))),
             points,
+            rational,
             t,
-            bounds,
             slack: 0.0,
         }
     }
@@ -83,14 +90,14 @@ impl Segment {
     }
 
     fn places(&self) -> impl Iterator<Item = DVec3> + Clone {
-        self.points.iter().map(|h| h.xyz() / h.w)
+        self.points.iter().map(|h| place(h, self.rational))
     }
 
     /// Point and derivative by t.
     pub(super) fn evaluate(&self, t: f64) -> (DVec3, DVec3) {
         let length = self.t[1] - self.t[0];
         let s = (t - self.t[0]) / length;
-        let mut work = self.points.clone();
+        let mut work: SmallVec<[DVec4; 8]> = SmallVec::from_slice(&self.points);
         let degree = work.len() - 1;
         for round in 1..degree {
             for k in 0..=degree - round {
@@ -105,7 +112,7 @@ impl Segment {
 
     pub(super) fn halves(&self) -> [Self; 2] {
         let degree = self.points.len() - 1;
-        let (mut low, mut high) = (self.points.clone(), self.points.clone());
+        let [mut low, mut high] = [0, 1].map(|_| SmallVec::from_slice(&self.points));
         for round in 1..=degree {
             for k in 0..=degree - round {
                 high[k] = 0.5 * (high[k] + high[k + 1]);
@@ -114,8 +121,8 @@ impl Segment {
         }
         let middle = 0.5 * (self.t[0] + self.t[1]);
         [
-            Self::new(low, [self.t[0], middle]).with_slack(self.slack),
-            Self::new(high, [middle, self.t[1]]).with_slack(self.slack),
+            Self::with(low, self.rational, [self.t[0], middle]).with_slack(self.slack),
+            Self::with(high, self.rational, [middle, self.t[1]]).with_slack(self.slack),
         ]
     }
 
@@ -133,8 +140,7 @@ impl Segment {
 
     fn tangents(&self) -> Option<(DVec3, f64)> {
         let places = self.places().zip(self.places().skip(1));
-        let legs: SmallVec<[DVec3; 8]> = places.map(|(a, b)| b - a).collect();
-        cone(&legs)
+        cone(places.map(|(a, b)| b - a))
     }
 
     fn range_along(&self, direction: DVec3) -> [f64; 2] {
@@ -148,6 +154,11 @@ impl Segment {
     pub(super) fn bounds(&self) -> &Bounds {
         &self.bounds
     }
+}
+
+/// The place of a homogeneous control point.
+fn place(h: &DVec4, rational: bool) -> DVec3 {
+    if rational { h.xyz() / h.w } else { h.xyz() }
 }
 
 /// All places where the segments pass through a sheet, within a box, by parameter.
@@ -259,7 +270,7 @@ impl<'a> Piercing<'a> {
         }
         let patch = &facet.patch;
         let tangents = segment.tangents();
-        let (normals, lean) = (facet.cones.normals, facet.lean());
+        let (normals, lean) = (facet.cones().normals, facet.lean());
         let bend = tangents.map_or(f64::INFINITY, |t| t.1);
         if let (Some((along, bend)), Some((normal, lean))) = (tangents, normals)
             && bend < STRAIGHT

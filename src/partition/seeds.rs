@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::alone::{BORDER, Chords, Frame};
+use super::alone::{self, BORDER, Chords, Frame};
 use super::bounds::Bounds;
 use super::facet::Facet;
 use super::hermite::{Branch, End, Node};
@@ -196,7 +196,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             return;
         }
         if is_small {
-            let guess = linear::guess(&a.patch, &b.patch, BESIDE);
+            let guess = linear::guess(a, b, BESIDE);
             let place = self.locate(a, b, &guess, BESIDE);
             let is_near = place.and_then(|place| self.follow(place)).is_some();
             if is_near {
@@ -235,7 +235,7 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
     fn flat(&mut self, a: &Facet, b: &Facet, is_small: bool) -> Verdict {
         // A curve that passes beside the smallest patches passes through what is around them.
         let beside = if is_small { BESIDE } else { BORDER };
-        let guess = linear::guess(&a.patch, &b.patch, BESIDE);
+        let guess = linear::guess(a, b, BESIDE);
         if let Guess::Apart(along) = guess {
             // Where boxes and slabs overlap they may still be apart another way.
             let [own, others] = [a, b].map(|facet| facet.patch.range_along(along));
@@ -291,8 +291,9 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         if !(a.lean() < STRAIGHT && b.lean() < STRAIGHT) {
             return false;
         }
-        let guess = linear::guess(&a.patch, &b.patch, STRIP);
-        let place = self.locate(a, b, &guess, STRIP);
+        let place = self
+            .passing(a, b, STRIP)
+            .or_else(|| self.land(a, b, &linear::guess(a, b, STRIP), STRIP));
         // What is not known yet is found in the halves.
         let Some(Place::On(branch, t)) = place else {
             return false;
@@ -340,17 +341,23 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
         {
             return false;
         }
-        let strip = beside.part(ranges[0], ranges[1]);
-        let mut cones = facets.map(|facet| facet.cones);
-        cones[side] = own.cones_with(&strip);
-        let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
         let mut polynomials = [[0.0; 2]; 4];
         for (k, facet) in facets.into_iter().enumerate() {
             let [u, v] = facet.patch.middle();
             let whole = self.shapes[k].patch_at(u, v);
             (polynomials[2 * k], polynomials[2 * k + 1]) = (whole.u, whole.v);
         }
-        Chords::going_on(facets, cones, (parameter, end), slack, polynomials)
+        // The strip costs most: only where the curve passes, and where without it there is such a parameter.
+        let reach = alone::reach(facets, (parameter, end), slack, polynomials);
+        let q = alone::parameters(&self.known[branch].branch, t);
+        let mut cones = facets.map(|facet| *facet.cones());
+        if !alone::hold(&reach, &q) || Chords::going_on(cones, slack, reach).is_none() {
+            return false;
+        }
+        let strip = beside.part(ranges[0], ranges[1]);
+        cones[side] = own.cones_with(&strip);
+        let lengths = std::array::from_fn(|k| self.pair.sheets[k / 2].length(k % 2));
+        Chords::going_on(cones, slack, reach)
             .is_some_and(|chords| chords.has_only(&self.known[branch].branch, t, lengths))
     }
 
@@ -418,10 +425,12 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
 
     /// A place on the curve between two patches, where one is found: on a known one, or on a new one.
     fn locate(&self, a: &Facet, b: &Facet, guess: &Guess, beside: f64) -> Option<Place> {
-        let known = self.passing(a, b, beside);
-        if known.is_some() {
-            return known;
-        }
+        self.passing(a, b, beside)
+            .or_else(|| self.land(a, b, guess, beside))
+    }
+
+    /// The place to which Newton's method leads from a guess.
+    fn land(&self, a: &Facet, b: &Facet, guess: &Guess, beside: f64) -> Option<Place> {
         let Guess::Meet(mut q, tangent, point) = *guess else {
             return None;
         };

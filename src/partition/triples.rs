@@ -84,14 +84,13 @@ impl<'a> Thirds<'a> {
     pub(super) fn find(mut self) -> Self {
         let mut order: Vec<(u8, usize)> = Vec::new();
         for region in 0..self.regions.inside.len() {
-            let is_near = self.sheets(region).next().is_some();
             if self.own.contains(&region) {
                 continue;
             }
             let may_hide = self.may_hide(region);
             if may_hide && self.is_hidden(region, &self.live[0], 1) {
                 order.push((0, region));
-            } else if is_near {
+            } else if self.sheets(region).next().is_some() {
                 order.push((if may_hide { 1 } else { 2 }, region));
             }
         }
@@ -115,8 +114,10 @@ impl<'a> Thirds<'a> {
     /// A region's sheets that the branch may pass through.
     fn sheets(&self, region: usize) -> impl Iterator<Item = usize> + use<'a> {
         let (regions, own, bounds) = (self.regions, self.crossing.sheets, self.bounds);
-        regions.sheets_of(region).filter(move |sheet| {
-            regions.may_pierce(own, *sheet) && regions.sheets[*sheet].bounds().meets(&bounds)
+        let is_near = regions.bounds[region].meets(&bounds);
+        let sheets = is_near.then(|| regions.sheets_of(region));
+        sheets.into_iter().flatten().filter(move |sheet| {
+            regions.sheets[*sheet].bounds().meets(&bounds) && regions.may_pierce(own, *sheet)
         })
     }
 

@@ -9,14 +9,14 @@
 use glam::{DVec3, Vec4Swizzles};
 use smallvec::SmallVec;
 
-use super::Patch;
+use super::{ORDER, Patch};
 use crate::partition::cone::{cone, product};
 
 /// The usual number of legs each way: of 4 × 4 control points there are 12.
 const LEGS: usize = 12;
 
 /// Steps between control points, along u and along v.
-type Legs = [SmallVec<[DVec3; LEGS]>; 2];
+pub(in crate::partition) type Legs = [SmallVec<[DVec3; LEGS]>; 2];
 
 /// Cones that hold the directions of a patch, as far as they fit half-spaces: unit axes and sines of half-angles.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,8 +28,11 @@ pub(in crate::partition) struct Cones {
 }
 
 impl Cones {
-    fn of(legs: Legs) -> Self {
-        let tangents = legs.map(|legs| cone(&legs));
+    fn of(legs: &Legs) -> Self {
+        Self::with(legs.each_ref().map(|legs| cone(legs.iter().copied())))
+    }
+
+    fn with(tangents: [Option<(DVec3, f64)>; 2]) -> Self {
         let normals = match tangents {
             [Some(u), Some(v)] => product(u, v),
             _ => None,
@@ -41,16 +44,50 @@ impl Cones {
 impl Patch {
     /// The cones that hold its tangents and its normals.
     pub(in crate::partition) fn cones(&self) -> Cones {
-        Cones::of(self.legs())
+        if self.rational && !self.has_product_weights {
+            return Cones::of(&self.legs());
+        }
+        match [self.rows, self.columns] {
+            [2, 2] => self.cones_of::<2, 2>(),
+            [2, 4] => self.cones_of::<2, 4>(),
+            [4, 2] => self.cones_of::<4, 2>(),
+            [4, 4] => self.cones_of::<4, 4>(),
+            _ => self.cones_of::<ORDER, ORDER>(),
+        }
+    }
+
+    /// The same from the legs of its net, without a place for them; its orders are constants unless they are only the most.
+    fn cones_of<const R: usize, const C: usize>(&self) -> Cones {
+        let [rows, columns] = if R == ORDER {
+            [self.rows, self.columns]
+        } else {
+            [R, C]
+        };
+        let mut net = [[DVec3::ZERO; C]; R];
+        for (row, own) in net.iter_mut().zip(self.net.chunks_exact(columns)) {
+            for (p, h) in row.iter_mut().zip(own) {
+                *p = if self.rational {
+                    h.xyz() / h.w
+                } else {
+                    h.xyz()
+                };
+            }
+        }
+        let net = &net;
+        let along_u =
+            (0..rows - 1).flat_map(|i| (0..columns).map(move |j| net[i + 1][j] - net[i][j]));
+        let along_v =
+            (0..rows).flat_map(|i| (0..columns - 1).map(move |j| net[i][j + 1] - net[i][j]));
+        Cones::with([cone(along_u), cone(along_v)])
     }
 
     /// The cones that hold those of it and of another patch of its sheet.
     pub(in crate::partition) fn cones_with(&self, other: &Self) -> Cones {
         let [mut u, mut v] = self.legs();
         let [more_u, more_v] = other.legs();
-        u.extend(more_u);
-        v.extend(more_v);
-        Cones::of([u, v])
+        u.extend_from_slice(&more_u);
+        v.extend_from_slice(&more_v);
+        Cones::of(&[u, v])
     }
 
     /// A cone that holds all normals: its unit axis and the sine of its half-angle, if they fit a half-space.
@@ -90,49 +127,56 @@ impl Patch {
     }
 
     /// How all products of its legs slope along a direction, if they all point up or all down.
-    pub(in crate::partition) fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
-        let legs = self.legs();
-        // Vanishing legs say nothing.
-        let [legs_u, legs_v] = legs.each_ref().map(|legs| {
-            let legs = legs.iter().filter(|leg| **leg != DVec3::ZERO).copied();
-            legs.collect::<SmallVec<[DVec3; LEGS]>>()
-        });
-        let sign = legs_u
-            .first()?
-            .cross(*legs_v.first()?)
-            .dot(upright)
-            .signum();
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-        let smaller = |a: f64, b: f64| if a < b { a } else { b };
-        for some in legs_v.chunks(LEGS) {
-            // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
-            let last = some.len() - 1;
-            let lanes: [[f64; LEGS]; 3] =
-                std::array::from_fn(|axis| std::array::from_fn(|k| some[k.min(last)][axis]));
-            let mut least = [f64::INFINITY; LEGS];
-            let (mut low, mut high) = ([f64::INFINITY; LEGS], [f64::INFINITY; LEGS]);
-            for u in &legs_u {
-                let [rise, reach] = [upright, along].map(|d| sign * d.cross(*u));
-                for k in 0..LEGS {
-                    let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
-                    let height = x * rise.x + y * rise.y + z * rise.z;
-                    let slope = (x * reach.x + y * reach.y + z * reach.z) / height;
-                    least[k] = smaller(height, least[k]);
-                    low[k] = smaller(slope, low[k]);
-                    high[k] = smaller(-slope, high[k]);
-                }
-            }
-            // Written so that NaN fails too.
-            if !least.iter().all(|height| *height > 0.0) {
-                return None;
-            }
-            for (low, high) in low.into_iter().zip(high) {
-                range = [smaller(low, range[0]), -smaller(high, -range[1])];
+    #[cfg(test)]
+    fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
+        slopes(&self.legs(), along, upright)
+    }
+}
+
+/// How all products of legs slope along a direction, if they all point up or all down.
+pub(in crate::partition) fn slopes(legs: &Legs, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
+    // Vanishing legs say nothing.
+    let [legs_u, legs_v] = legs.each_ref().map(|legs| {
+        let legs = legs.iter().filter(|leg| **leg != DVec3::ZERO).copied();
+        legs.collect::<SmallVec<[DVec3; LEGS]>>()
+    });
+    let sign = legs_u
+        .first()?
+        .cross(*legs_v.first()?)
+        .dot(upright)
+        .signum();
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    let smaller = |a: f64, b: f64| if a < b { a } else { b };
+    for some in legs_v.chunks(LEGS) {
+        // By coordinate, so that the compiler takes several at once; the last one as often as it fills up.
+        let last = some.len() - 1;
+        let lanes: [[f64; LEGS]; 3] =
+            std::array::from_fn(|axis| std::array::from_fn(|k| some[k.min(last)][axis]));
+        let mut least = [f64::INFINITY; LEGS];
+        let (mut low, mut high) = ([f64::INFINITY; LEGS], [f64::INFINITY; LEGS]);
+        for u in &legs_u {
+            let [rise, reach] = [upright, along].map(|d| sign * d.cross(*u));
+            for k in 0..LEGS {
+                let [x, y, z] = [lanes[0][k], lanes[1][k], lanes[2][k]];
+                let height = x * rise.x + y * rise.y + z * rise.z;
+                let slope = (x * reach.x + y * reach.y + z * reach.z) / height;
+                least[k] = smaller(height, least[k]);
+                low[k] = smaller(slope, low[k]);
+                high[k] = smaller(-slope, high[k]);
             }
         }
-        Some(range)
+        // Written so that NaN fails too.
+        if !least.iter().all(|height| *height > 0.0) {
+            return None;
+        }
+        for (low, high) in low.into_iter().zip(high) {
+            range = [smaller(low, range[0]), -smaller(high, -range[1])];
+        }
     }
+    Some(range)
+}
 
+impl Patch {
     /// Steps of which all tangents along u, and along v, are sums with positive factors.
     pub(in crate::partition) fn legs(&self) -> Legs {
         let mut legs = Legs::default();
@@ -152,10 +196,14 @@ impl Patch {
             });
             to - from
         };
-        legs[0].extend((0..self.net.len() - columns).map(|at| leg(at, at + columns)));
+        for at in 0..self.net.len() - columns {
+            legs[0].push(leg(at, at + columns));
+        }
         for row in 0..self.rows {
             let first = row * columns;
-            legs[1].extend((first..first + columns - 1).map(|at| leg(at, at + 1)));
+            for at in first..first + columns - 1 {
+                legs[1].push(leg(at, at + 1));
+            }
         }
         legs
     }
