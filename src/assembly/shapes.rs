@@ -32,32 +32,68 @@ pub(crate) fn trough(trough: &Trough, block: [DVec3; 2], cut: Cut, level: Option
 
 /// The topology of one whole sheet as a face, for files of surfaces.
 pub(crate) fn sheet(role: Role, surface: &nurbs::Surface) -> Topology {
+    // A skin may be a part of the closed surface: what warps one cuts it where it could have creases.
     match role {
-        Role::Skin => closed::shell(surface, 1),
+        Role::Skin if is_closed(surface) => closed::shell(surface, 1),
         _ => open_sheet(surface),
     }
+}
+
+/// Whether a surface is all of a closed one: a seam where u begins and ends, a point at either end of v.
+fn is_closed(surface: &nurbs::Surface) -> bool {
+    let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+    let [first, last] = [u0, u1].map(|u| surface.isocurve_u(u));
+    let mut points = first.points().iter().zip(last.points());
+    // Rows of one net: as many points in both.
+    let is_seam = first.weights() == last.weights() && points.all(|(a, b)| a.distance(*b) <= EXACT);
+    is_seam && [v0, v1].iter().all(|v| is_pole(&surface.isocurve_v(*v)))
+}
+
+/// Whether a side is a point.
+fn is_pole(side: &nurbs::Curve) -> bool {
+    let points = side.points();
+    points.iter().all(|p| p.distance(points[0]) <= EXACT)
 }
 
 fn open_sheet(surface: &nurbs::Surface) -> Topology {
     let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
     let corners = [(u0, v0), (u1, v0), (u1, v1), (u0, v1)];
-    let curves = vec![
-        curve(&surface.isocurve_v(v0)),
-        curve(&surface.isocurve_u(u1)),
-        curve(&surface.isocurve_v(v1)),
-        curve(&surface.isocurve_u(u0)),
+    let sides = [
+        surface.isocurve_v(v0),
+        surface.isocurve_u(u1),
+        surface.isocurve_v(v1),
+        surface.isocurve_u(u0),
     ];
-    let edge = |curve, range: (f64, f64), start, end| Edge {
-        curve,
+    // The sides from corner to corner, as the edges run. At a side that is a point both of its corners are one vertex, or the
+    // loop would be open where readers leave out the edge that has no length.
+    let ends = [(0, 1), (1, 2), (3, 2), (0, 3)];
+    let mut vertex = [0, 1, 2, 3];
+    for (side, (start, end)) in sides.iter().zip(ends) {
+        if is_pole(side) {
+            let (kept, other) = (vertex[start], vertex[end]);
+            for own in &mut vertex {
+                if *own == other {
+                    *own = kept;
+                }
+            }
+        }
+    }
+    // Corners that are left, numbered without gaps.
+    let mut kept: Vec<usize> = vertex.to_vec();
+    kept.sort_unstable();
+    kept.dedup();
+    let number = |corner: usize| kept.partition_point(|k| *k < vertex[corner]);
+    let edge = |side: usize, range: (f64, f64)| Edge {
+        curve: side,
         range: [range.0, range.1],
-        start,
-        end,
+        start: number(ends[side].0),
+        end: number(ends[side].1),
     };
     let edges = vec![
-        edge(0, (u0, u1), 0, 1),
-        edge(1, (v0, v1), 1, 2),
-        edge(2, (u0, u1), 3, 2),
-        edge(3, (v0, v1), 0, 3),
+        edge(0, (u0, u1)),
+        edge(1, (v0, v1)),
+        edge(2, (u0, u1)),
+        edge(3, (v0, v1)),
     ];
     let uses = vec![
         along_u(0, v0, false),
@@ -66,11 +102,12 @@ fn open_sheet(surface: &nurbs::Surface) -> Topology {
         along_v(3, u0, true),
     ];
     Topology {
-        vertices: corners
+        vertices: kept
             .iter()
-            .map(|(u, v)| surface.point(*u, *v).to_array())
+            .map(|corner| corners[*corner])
+            .map(|(u, v)| surface.point(u, v).to_array())
             .collect(),
-        curves,
+        curves: sides.iter().map(curve).collect(),
         surfaces: vec![spline(surface)],
         edges,
         faces: vec![Face {

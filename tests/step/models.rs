@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use clinothem::assembly::Engine;
 use clinothem::export::step::{Protocol, write_assembly, write_shared, write_surfaces};
+use clinothem::model::realisation::Realisation;
 use clinothem::model::selection::Selection;
+use clinothem::nurbs::Surface;
 use occt_bridge::{ShapeKind, area, volume};
 
 use super::assembled::{Built, checked, source};
@@ -207,4 +209,64 @@ fn the_surfaces_of_a_model_are_whole_named_and_coloured() {
         let [base, top] = channel.map(|at: usize| area(&read[at].shape, 1e-9).unwrap());
         assert!(base > top && base < 1.2 * top, "{base} {top}");
     }
+}
+
+#[test]
+fn the_skin_of_a_warped_ellipsoid_is_eight_triangles_between_its_poles_and_its_equator() {
+    let model = checked(&source("fig09-warp/fig09-warp"));
+    let concretions = Selection {
+        without: vec!["scour".to_owned()],
+        ..Selection::default()
+    };
+    let realisation = Realisation::new(&model, &concretions).unwrap();
+    let written = Written::save(|path| write_surfaces(path, &model, &realisation, Protocol::Ap214));
+    let entities = Entities::of(&written.text());
+    // Loops close, end to end.
+    entities.check();
+    let mut read: BTreeMap<String, Vec<_>> = BTreeMap::new();
+    for part in written.read() {
+        if let Some(of) = part.name.strip_suffix("/skin") {
+            read.entry(of.to_owned()).or_default().push(part.shape);
+        }
+    }
+    assert_eq!(read.len(), 9);
+    for instance in &realisation.instances {
+        let Some(shapes) = read.get(&realisation.volumes[instance.volume].name) else {
+            continue;
+        };
+        assert_valid(shapes);
+        assert_eq!(shapes.len(), 8);
+        // Small triangles between points of the sheets, less than the surface by some 1e-5 of it.
+        let triangles: f64 = instance
+            .body
+            .sheets()
+            .unwrap()
+            .iter()
+            .map(|(_, sheet)| area_of_triangles(sheet, 128))
+            .sum();
+        let area: f64 = shapes.iter().map(|shape| area(shape, 1e-9).unwrap()).sum();
+        near(area, triangles, 1e-4);
+    }
+    // Of its octahedron each face has three edges with a length.
+    let edges = |face: usize| entities.below(entities.face(face).1[0]).len();
+    let faces = entities.named("ADVANCED_FACE");
+    let three = faces.into_iter().filter(|face| edges(*face) == 3);
+    assert_eq!(three.count(), 9 * 8);
+}
+
+/// The area of the triangles between n × n places of a surface.
+fn area_of_triangles(surface: &Surface, n: usize) -> f64 {
+    let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+    let at = |i: usize, j: usize| {
+        let part = |k: usize| k as f64 / n as f64;
+        surface.point(u0 + (u1 - u0) * part(i), v0 + (v1 - v0) * part(j))
+    };
+    let mut sum = 0.0;
+    for i in 0..n {
+        for j in 0..n {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            sum += 0.5 * ((b - a).cross(c - a).length() + (c - a).cross(d - a).length());
+        }
+    }
+    sum
 }
