@@ -26,6 +26,8 @@
 mod meeting;
 mod takers;
 
+use std::sync::atomic::AtomicU64;
+
 use serde::{Deserialize, Serialize};
 
 use super::values::selector::{Pick, Selector};
@@ -311,6 +313,12 @@ impl Rules {
         inside: impl FnMut(usize) -> bool,
     ) -> usize {
         self.owner_by(&Takers::new(0), first, younger, inside)
+    }
+
+    /// Whether a body takes a place inside it from a holder of whom so much is remembered.
+    #[inline]
+    fn takes(&self, known: Option<&[AtomicU64]>, body: usize, holder: usize) -> bool {
+        takers::remembered(known, body, || self.verdict(body, holder) == Verdict::Takes)
     }
 
     /// The same, by verdicts that are remembered.

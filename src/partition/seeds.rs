@@ -347,7 +347,8 @@ impl<'a, F: FnMut(Node) -> Option<Branch>> Search<'a, F> {
             let whole = self.shapes[k].patch_at(u, v);
             (polynomials[2 * k], polynomials[2 * k + 1]) = (whole.u, whole.v);
         }
-        // The strip costs most: only where the curve passes, and where without it there is such a parameter.
+        // The strip costs most: only where the curve passes, and where without it there is such a parameter. With it there hardly ever is one
+        // if without it there is none; a certificate that is not found for that is found in the halves.
         let reach = alone::reach(facets, (parameter, end), slack, polynomials);
         let q = alone::parameters(&self.known[branch].branch, t);
         let mut cones = facets.map(|facet| *facet.cones());

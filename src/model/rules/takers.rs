@@ -5,8 +5,6 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{Rules, Verdict};
-
 /// Of more volumes nothing is remembered: 4 MB.
 const MOST: usize = 4096;
 /// Verdicts in a word: two bits each, whether it is known and whether the body takes.
@@ -45,22 +43,24 @@ impl Takers {
     }
 }
 
-impl Rules {
-    /// Whether a body takes a place inside it from a holder whose row this is.
-    #[inline]
-    pub(super) fn takes(&self, row: Option<&[AtomicU64]>, body: usize, holder: usize) -> bool {
-        let Some(row) = row else {
-            return self.verdict(body, holder) == Verdict::Takes;
-        };
-        let (word, shift) = (&row[body / IN_WORD], 2 * (body % IN_WORD));
-        // Whoever asks at the same time comes to the same answer, so the order of reads and writes does not matter.
-        let bits = word.load(Ordering::Relaxed) >> shift;
-        if bits & KNOWN != 0 {
-            return bits & TAKES != 0;
-        }
-        let takes = self.verdict(body, holder) == Verdict::Takes;
-        let bits = if takes { KNOWN | TAKES } else { KNOWN };
-        word.fetch_or(bits << shift, Ordering::Relaxed);
-        takes
+/// Whether a body takes a place inside it from a holder whose row this is: as remembered, or as `takes` says.
+#[inline]
+pub(super) fn remembered(
+    row: Option<&[AtomicU64]>,
+    body: usize,
+    takes: impl FnOnce() -> bool,
+) -> bool {
+    let Some(row) = row else {
+        return takes();
+    };
+    let (word, shift) = (&row[body / IN_WORD], 2 * (body % IN_WORD));
+    // Whoever asks at the same time comes to the same answer, so the order of reads and writes does not matter.
+    let bits = word.load(Ordering::Relaxed) >> shift;
+    if bits & KNOWN != 0 {
+        return bits & TAKES != 0;
     }
+    let takes = takes();
+    let bits = if takes { KNOWN | TAKES } else { KNOWN };
+    word.fetch_or(bits << shift, Ordering::Relaxed);
+    takes
 }
