@@ -240,7 +240,7 @@ impl Fitting<'_> {
             let middle = usize::midpoint(too_few, enough);
             match self.with(self.cells(middle, times))? {
                 Some(fitted) if self.goal.is_met(&fitted.misfit) => {
-                    (best, enough) = (fitted, middle)
+                    (best, enough) = (fitted, middle);
                 }
                 _ => too_few = middle,
             }

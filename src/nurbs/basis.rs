@@ -19,6 +19,10 @@ fn values_of<const P: usize>(knots: &[f64], u: f64, out: &mut [f64]) {
 }
 
 /// The same by the `2 * degree` knots around the span.
+#[expect(
+    clippy::inline_always,
+    reason = "a degree that is a constant is of use only here"
+)]
 #[inline(always)]
 fn values_by(knots: &[f64], degree: usize, u: f64, out: &mut [f64]) {
     out[0] = 1.0;
