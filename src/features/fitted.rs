@@ -120,7 +120,6 @@ impl Fitted {
             through,
             slope,
             extent: high - low,
-            most: goal.most(heights.len()),
             goal,
             data: Approximation::new(low, high, &residuals)?,
         };
@@ -185,7 +184,6 @@ struct Fitting<'a> {
     through: DVec3,
     slope: DVec2,
     extent: DVec2,
-    most: usize,
     goal: Goal,
     data: Approximation<'a>,
 }
@@ -206,7 +204,7 @@ impl Fitting<'_> {
     /// The lattice with so many cells; nothing if that is too many.
     fn with(&mut self, cells: [usize; 2]) -> Result<Option<Fitted>, HorizonError> {
         let counts = cells.map(|count| count + 1);
-        if counts[0].saturating_mul(counts[1]) > self.most {
+        if counts[0].saturating_mul(counts[1]) > self.goal.most(self.heights.len()) {
             return Ok(None);
         }
         let (heights, through, slope, goal) = (self.heights, self.through, self.slope, self.goal);
@@ -216,7 +214,7 @@ impl Fitting<'_> {
             (horizon, misfit)
         };
         let lattice = self.data.lattice(cells, SMOOTHNESS, |lattice, known| {
-            goal.is_hopeless(&above(lattice.clone()).1, known)
+            goal.is_hopeless(&above(lattice).1, known)
         })?;
         let (horizon, misfit) = above(lattice);
         Ok(Some(Fitted {

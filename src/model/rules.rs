@@ -315,12 +315,6 @@ impl Rules {
         self.owner_by(&Takers::new(0), first, younger, inside)
     }
 
-    /// Whether a body takes a place inside it from a holder of whom so much is remembered.
-    #[inline]
-    fn takes(&self, known: Option<&[AtomicU64]>, body: usize, holder: usize) -> bool {
-        takers::remembered(known, body, || self.verdict(body, holder) == Verdict::Takes)
-    }
-
     /// The same, by verdicts that are remembered.
     pub(super) fn owner_by(
         &self,
@@ -336,6 +330,12 @@ impl Rules {
             }
         }
         self.whole(holder)
+    }
+
+    /// Whether a body takes a place inside it from a holder of whom so much is remembered.
+    #[inline]
+    fn takes(&self, known: Option<&[AtomicU64]>, body: usize, holder: usize) -> bool {
+        takers::remembered(known, body, || self.verdict(body, holder) == Verdict::Takes)
     }
 
     /// The volume that a body is a piece of: most often the body's own.

@@ -91,7 +91,7 @@ impl<'a> Approximation<'a> {
         &mut self,
         cells: [usize; 2],
         smoothness: f64,
-        mut is_vain: impl FnMut(&Lattice, f64) -> bool,
+        mut is_vain: impl FnMut(Lattice, f64) -> bool,
     ) -> Result<Lattice, LatticeError> {
         let counts = cells.map(|count| count + 1);
         let zeros = vec![0.0; counts[0] * counts[1]];
@@ -107,7 +107,7 @@ impl<'a> Approximation<'a> {
         let number = self.points.len() as f64;
         let coefficients = cycle.solve(0, &sums.right, &mut |so_far, energy| {
             let known = CONDITION * (energy / number).sqrt();
-            lattice(so_far.to_vec()).is_ok_and(|so_far| is_vain(&so_far, known))
+            lattice(so_far.to_vec()).is_ok_and(|so_far| is_vain(so_far, known))
         });
         lattice(coefficients)
     }
@@ -503,7 +503,7 @@ mod tests {
         let mut asked = Vec::new();
         let solution = data
             .lattice([64, 48], 1e-7, |so_far, known| {
-                asked.push((so_far.clone(), known));
+                asked.push((so_far, known));
                 false
             })
             .unwrap();

@@ -3,6 +3,8 @@
 //! With all arguments equal it is the spline's value; with ends of the span as arguments, one after the other replaced, it
 //! is the control points of the Bézier piece there. So pieces, and parts of them, are had without inserting a knot.
 
+use std::array::from_fn;
+
 use glam::DVec4;
 use smallvec::SmallVec;
 
@@ -17,51 +19,33 @@ pub(crate) fn blossom(
     control: impl Fn(usize) -> DVec4,
 ) -> DVec4 {
     let degree = arguments.len();
+    let own = &knots[span + 1 - degree..=span + degree];
     let local = |k: usize| control(span - degree + k);
     // With the usual degrees as constants nothing is looped over, and nothing needs room but registers.
     match degree {
-        1 => usual::<2>(&knots[span..=span + 1], arguments, local),
-        3 => usual::<4>(&knots[span - 2..=span + 3], arguments, local),
-        5 => usual::<6>(&knots[span - 4..=span + 5], arguments, local),
-        _ => any(knots, span, arguments, local),
+        1 => reduced(own, arguments, &mut from_fn::<_, 2, _>(local)),
+        3 => reduced(own, arguments, &mut from_fn::<_, 4, _>(local)),
+        5 => reduced(own, arguments, &mut from_fn::<_, 6, _>(local)),
+        _ => reduced(
+            own,
+            arguments,
+            &mut (0..=degree).map(local).collect::<Net>(),
+        ),
     }
 }
 
-/// The same by the knots around the span, twice as many as the degree, and by the control points that matter, of which `N` is the number.
-#[inline]
-fn usual<const N: usize>(
-    knots: &[f64],
-    mut arguments: impl Iterator<Item = f64>,
-    control: impl Fn(usize) -> DVec4,
-) -> DVec4 {
-    let degree = N - 1;
+/// The same by the knots around the span, twice as many as the degree, and by the control points that matter.
+#[expect(
+    clippy::inline_always,
+    reason = "a degree that is a constant is of use only here"
+)]
+#[inline(always)]
+fn reduced(knots: &[f64], arguments: impl Iterator<Item = f64>, work: &mut [DVec4]) -> DVec4 {
+    let degree = work.len() - 1;
     let knots = &knots[..2 * degree];
-    let mut work: [DVec4; N] = std::array::from_fn(control);
-    for round in 0..degree {
-        let Some(t) = arguments.next() else {
-            break;
-        };
+    for (round, t) in arguments.take(degree).enumerate() {
         for k in 0..degree - round {
             let (low, high) = (knots[round + k], knots[degree + k]);
-            let part = (t - low) / (high - low);
-            work[k] = work[k] * (1.0 - part) + work[k + 1] * part;
-        }
-    }
-    work[0]
-}
-
-fn any(
-    knots: &[f64],
-    span: usize,
-    arguments: impl ExactSizeIterator<Item = f64>,
-    control: impl Fn(usize) -> DVec4,
-) -> DVec4 {
-    let degree = arguments.len();
-    let mut work: Net = (0..=degree).map(control).collect();
-    for (round, t) in arguments.enumerate() {
-        for k in 0..degree - round {
-            let low = knots[span - degree + 1 + round + k];
-            let high = knots[span + 1 + k];
             let part = (t - low) / (high - low);
             work[k] = work[k] * (1.0 - part) + work[k + 1] * part;
         }

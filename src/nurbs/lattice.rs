@@ -328,15 +328,19 @@ impl Lattice {
         let t = (x - self.low[axis]) / self.step(axis);
         let first = if t > 0.0 { t as usize } else { 0 };
         let span = first.min(count - 2);
-        let inner = |f: f64| (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
-        if 0 < span && span + 2 < count {
-            // Away from the ends, as most places are.
+        // The cubic basis functions at a place between two nodes.
+        let cubics = || {
             let f = t - span as f64;
             let g = 1.0 - f;
+            let inner = |f: f64| (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
+            [g * g * g / 6.0, inner(f), inner(g), f * f * f / 6.0]
+        };
+        if 0 < span && span + 2 < count {
+            // Away from the ends, as most places are.
             return Weights {
                 span,
                 first: span - 1,
-                values: [g * g * g / 6.0, inner(f), inner(g), f * f * f / 6.0],
+                values: cubics(),
                 count: 4,
             };
         }
@@ -354,11 +358,9 @@ impl Lattice {
             weights.add(last - 1, -beyond);
             weights.add(last, 1.0 + beyond);
         } else {
-            let f = t - span as f64;
-            let g = 1.0 - f;
-            let (before, after) = (g * g * g / 6.0, f * f * f / 6.0);
-            weights.add(span, inner(f));
-            weights.add(span + 1, inner(g));
+            let [before, own, next, after] = cubics();
+            weights.add(span, own);
+            weights.add(span + 1, next);
             if span == 0 {
                 weights.add(0, 2.0 * before);
                 weights.add(1, -before);

@@ -89,7 +89,7 @@ impl Chords {
     }
 
     fn beyond(&self, q: &[f64; 4]) -> [bool; 4] {
-        std::array::from_fn(|k| !(self.ranges[k][0] <= q[k] && q[k] <= self.ranges[k][1]))
+        beyond(&self.ranges, q)
     }
 
     fn holds(&self, q: &[f64; 4]) -> bool {
@@ -234,10 +234,14 @@ pub(super) fn parameters(branch: &Branch, t: f64) -> [f64; 4] {
     std::array::from_fn(|k| value[3 + k])
 }
 
+/// Which parameters are beyond their ranges; written so that NaN is.
+fn beyond(ranges: &Ranges, q: &[f64; 4]) -> [bool; 4] {
+    std::array::from_fn(|k| !(ranges[k][0] <= q[k] && q[k] <= ranges[k][1]))
+}
+
 /// Whether ranges hold parameters.
 pub(super) fn hold(ranges: &Ranges, q: &[f64; 4]) -> bool {
-    // Written so that NaN fails.
-    (0..4).all(|k| ranges[k][0] <= q[k] && q[k] <= ranges[k][1])
+    beyond(ranges, q) == [false; 4]
 }
 
 /// By how much cones are wider where curves a little beside patches count.

@@ -139,12 +139,7 @@ impl Patch {
     }
 
     fn control(&self, i: usize, j: usize) -> DVec3 {
-        let h = self.net[i * self.columns + j];
-        if self.rational {
-            h.xyz() / h.w
-        } else {
-            h.xyz()
-        }
+        place(&self.net[i * self.columns + j], self.rational)
     }
 
     /// Its control points, u-major.
@@ -368,8 +363,12 @@ fn are_products(weights: &[f64], rows: usize) -> bool {
 }
 
 fn points(net: &[DVec4], rational: bool) -> impl Iterator<Item = DVec3> + Clone {
-    net.iter()
-        .map(move |h| if rational { h.xyz() / h.w } else { h.xyz() })
+    net.iter().map(move |h| place(h, rational))
+}
+
+/// The place of a homogeneous control point.
+pub(super) fn place(h: &DVec4, rational: bool) -> DVec3 {
+    if rational { h.xyz() / h.w } else { h.xyz() }
 }
 
 #[cfg(test)]

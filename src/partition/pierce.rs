@@ -7,7 +7,7 @@ use super::bounds::Bounds;
 use super::cone::cone;
 use super::facet::Facet;
 use super::pair::Tolerances;
-use super::patch::Patch;
+use super::patch::{Patch, place};
 use super::sheet::{NodeKind, Sheet};
 use super::solve::solve;
 
@@ -154,11 +154,6 @@ impl Segment {
     pub(super) fn bounds(&self) -> &Bounds {
         &self.bounds
     }
-}
-
-/// The place of a homogeneous control point.
-fn place(h: &DVec4, rational: bool) -> DVec3 {
-    if rational { h.xyz() / h.w } else { h.xyz() }
 }
 
 /// All places where the segments pass through a sheet, within a box, by parameter.

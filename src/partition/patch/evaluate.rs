@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4, Vec4Swizzles};
 
-use super::{Along, ORDER, Patch};
+use super::{Along, ORDER, Patch, place};
 use crate::partition::bernstein;
 
 /// A point of a surface with its first and second derivatives.
@@ -150,11 +150,7 @@ impl Patch {
             }
             h += in_u[i] * own;
         }
-        if self.rational {
-            h.xyz() / h.w
-        } else {
-            h.xyz()
-        }
+        place(&h, self.rational)
     }
 
     /// Number of control points in the direction in which the other parameter is fixed.

@@ -6,10 +6,10 @@
 //! any of its control points to later ones, which are sums of legs. Where weights are no products, steps between all rows
 //! (columns) take the place of legs.
 
-use glam::{DVec3, Vec4Swizzles};
+use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{ORDER, Patch};
+use super::{ORDER, Patch, place};
 use crate::partition::cone::{cone, product};
 
 /// The usual number of legs each way: of 4 × 4 control points there are 12.
@@ -66,11 +66,7 @@ impl Patch {
         let mut net = [[DVec3::ZERO; C]; R];
         for (row, own) in net.iter_mut().zip(self.net.chunks_exact(columns)) {
             for (p, h) in row.iter_mut().zip(own) {
-                *p = if self.rational {
-                    h.xyz() / h.w
-                } else {
-                    h.xyz()
-                };
+                *p = place(h, self.rational);
             }
         }
         let net = &net;
@@ -126,10 +122,44 @@ impl Patch {
         Some(range)
     }
 
-    /// How all products of its legs slope along a direction, if they all point up or all down.
-    #[cfg(test)]
-    fn slopes(&self, along: DVec3, upright: DVec3) -> Option<[f64; 2]> {
-        slopes(&self.legs(), along, upright)
+    /// Steps of which all tangents along u, and along v, are sums with positive factors.
+    pub(in crate::partition) fn legs(&self) -> Legs {
+        let mut legs = Legs::default();
+        let columns = self.columns;
+        if self.rational && !self.has_product_weights {
+            self.steps(&mut legs);
+            return legs;
+        }
+        let leg = |from: usize, to: usize| {
+            let [from, to] = [from, to].map(|at| place(&self.net[at], self.rational));
+            to - from
+        };
+        for at in 0..self.net.len() - columns {
+            legs[0].push(leg(at, at + columns));
+        }
+        for row in 0..self.rows {
+            let first = row * columns;
+            for at in first..first + columns - 1 {
+                legs[1].push(leg(at, at + 1));
+            }
+        }
+        legs
+    }
+
+    /// From each control point to all of later rows, and of later columns.
+    fn steps(&self, legs: &mut Legs) {
+        let all = || (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| [i, j]));
+        for from in all() {
+            for to in all() {
+                let step = || self.control(to[0], to[1]) - self.control(from[0], from[1]);
+                if to[0] > from[0] {
+                    legs[0].push(step());
+                }
+                if to[1] > from[1] {
+                    legs[1].push(step());
+                }
+            }
+        }
     }
 }
 
@@ -176,55 +206,6 @@ pub(in crate::partition) fn slopes(legs: &Legs, along: DVec3, upright: DVec3) ->
     Some(range)
 }
 
-impl Patch {
-    /// Steps of which all tangents along u, and along v, are sums with positive factors.
-    pub(in crate::partition) fn legs(&self) -> Legs {
-        let mut legs = Legs::default();
-        let columns = self.columns;
-        if self.rational && !self.has_product_weights {
-            self.steps(&mut legs);
-            return legs;
-        }
-        let leg = |from: usize, to: usize| {
-            let [from, to] = [from, to].map(|at| {
-                let h = self.net[at];
-                if self.rational {
-                    h.xyz() / h.w
-                } else {
-                    h.xyz()
-                }
-            });
-            to - from
-        };
-        for at in 0..self.net.len() - columns {
-            legs[0].push(leg(at, at + columns));
-        }
-        for row in 0..self.rows {
-            let first = row * columns;
-            for at in first..first + columns - 1 {
-                legs[1].push(leg(at, at + 1));
-            }
-        }
-        legs
-    }
-
-    /// From each control point to all of later rows, and of later columns.
-    fn steps(&self, legs: &mut Legs) {
-        let all = || (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| [i, j]));
-        for from in all() {
-            for to in all() {
-                let step = || self.control(to[0], to[1]) - self.control(from[0], from[1]);
-                if to[0] > from[0] {
-                    legs[0].push(step());
-                }
-                if to[1] > from[1] {
-                    legs[1].push(step());
-                }
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
@@ -257,7 +238,7 @@ mod tests {
         let directions = [DVec3::X, DVec3::new(-1.0, 0.4, 0.1)];
         for upright in [DVec3::Z, -DVec3::Z] {
             for along in directions {
-                let range = patch.slopes(along, upright).unwrap();
+                let range = slopes(&patch.legs(), along, upright).unwrap();
                 let sign = upright.z;
                 let mut sampled = sampled(&patch, along).map(|slope| sign * slope);
                 sampled.sort_by(f64::total_cmp);
@@ -355,6 +336,6 @@ mod tests {
             [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
         let patch = Patch::new(2, &net, &[1.0; 4], [0.0, 1.0], [0.0, 1.0]);
         assert!(patch.corner_slopes(DVec3::X, DVec3::Z).is_none());
-        assert!(patch.slopes(DVec3::X, DVec3::Z).is_none());
+        assert!(slopes(&patch.legs(), DVec3::X, DVec3::Z).is_none());
     }
 }
